@@ -25,8 +25,6 @@ if threading.current_thread() is threading.main_thread():
 import pytest  # noqa: E402
 from hypothesis import HealthCheck, settings  # noqa: E402
 
-from watched_results import noted  # noqa: E402
-
 settings.register_profile(
     "untimed",
     deadline=None,
@@ -79,13 +77,6 @@ def inline_workers(monkeypatch: pytest.MonkeyPatch) -> None:
     from stepaside.studies.study import InlineExecutor
 
     monkeypatch.setattr(worker_pool, "worker_pool", lambda _: InlineExecutor())
-
-
-@pytest.hookimpl(wrapper=True)
-def pytest_runtest_call(item: pytest.Item) -> Iterator[None]:
-    """Compare what a test receives with what is stored for it."""
-    with noted(item):
-        return (yield)
 
 
 @pytest.hookimpl(tryfirst=True)

@@ -1,11 +1,12 @@
 """Test the guard against obstacles with arbitrary intents."""
 
 from math import cos, pi, sin
+from typing import Any
 
 import numpy as np
 import pytest
 
-from fake_robot import GAIT
+from fake_robot import GAIT, FakeLegs, scheme_of
 from stepaside.arena import (
     Box,
     Disc,
@@ -13,14 +14,17 @@ from stepaside.arena import (
     ObstacleSet,
     Polygon,
     Room,
+    RoomRecipe,
     clearance_between,
+    generate_room,
     hull,
 )
-from stepaside.core.poses import Pose
+from stepaside.control.scheme import ControlScheme
+from stepaside.core.poses import Array, Pose
 from stepaside.locomotion.guard import Guard, KnownRoom
-from stepaside.locomotion.locomotion import GuardDecision
+from stepaside.locomotion.locomotion import GuardDecision, Phase
 from stepaside.locomotion.swept_outline import BodyOutline
-from stepaside.perception.measurement import RobotState
+from stepaside.perception.measurement import RobotState, Sighting
 from stepaside.planning import (
     CenterState,
     Direction,
@@ -30,8 +34,9 @@ from stepaside.planning import (
     TemplateDrive,
 )
 from stepaside.robots.description import load_robot
+from stepaside.robots.newton_step import BodyReference
 from stepaside.sim.outline_measurement import measure_outline
-from stepaside.strategies import Intent
+from stepaside.strategies import Intent, Knowledge
 
 NAO = load_robot("nao")
 MARGIN = 0.02
@@ -40,6 +45,137 @@ SOLE = np.concatenate([SOLE, [[0.095, -0.035]]])
 TRUNK = np.array([[0.09, 0.1], [0.02, 0.16], [-0.07, 0.1]])
 TRUNK = np.concatenate([TRUNK, TRUNK[::-1] * [1, -1]])
 OUTLINE = BodyOutline(TRUNK, SOLE, SOLE * [1, -1])
+
+
+class Whim:
+    """Wants anything, and walks or stands for a while each."""
+
+    saturated = False
+
+    def __init__(self, seed: int) -> None:
+        self.random = np.random.default_rng(seed)
+        self.direction = list(Direction)[seed % 2]
+        self.wanted = Intent()
+        self.left = 0
+
+    def begin(self) -> None:
+        """Nothing to remember."""
+
+    def decide(self, known: Knowledge, memory: None) -> tuple[Intent, None]:
+        """Return a random intent for a random number of decisions."""
+        if known.moving:
+            self.left -= 1
+        if self.left < 0:
+            self.left = int(self.random.integers(1, 12))
+            self.wanted = Intent(
+                self.random.uniform(-pi, pi),
+                self.random.uniform(0.2, 1.0) * (self.random.random() < 0.9),
+            )
+        if not known.moving:
+            return Intent(self.wanted.heading), None
+        return self.wanted, None
+
+
+def scheme_in(
+    room: Room, start: Pose, seed: int, tick: float
+) -> ControlScheme:
+    legs: Any = FakeLegs()
+    guard = Guard(
+        KnownRoom(room, start),
+        OUTLINE,
+        ManeuverPlanner(GAIT),
+        margin=MARGIN,
+    )
+    return scheme_of(Whim(seed), GAIT, legs, tick=tick, guard=guard)
+
+
+def corners_of(body: BodyReference, frame: Pose) -> Array:
+    """The outline of a body in the room, reckoned part by part."""
+    parts = []
+    for place, heading, corners in (
+        (body.com[:2], body.heading, OUTLINE.trunk),
+        (body.left_foot[:2], body.left_foot[3], OUTLINE.left_sole),
+        (body.right_foot[:2], body.right_foot[3], OUTLINE.right_sole),
+    ):
+        parts.append(Pose(*place, heading).transform_points(corners))
+    return frame.transform_points(np.concatenate(parts))
+
+
+def clearance(room: Room, corners: Array) -> float:
+    """Least distance of trunk and soles from everything."""
+    parts = np.split(corners, [len(TRUNK), len(TRUNK) + len(SOLE)])
+    return min(
+        clearance_between(Polygon(tuple(map(tuple, part.tolist()))), solid)
+        for part in parts
+        for solid in room.solids
+    )
+
+
+@pytest.mark.slow
+def test_any_intent_keeps_the_robot_clear_of_obstacles() -> None:
+    """Foot by foot, tick by tick, through every step and every halt."""
+    least, phases = [], set()
+    nothing, tick = np.zeros(3), 0.02
+    recipe = RoomRecipe(2.2, 2.2, discs=2, boxes=1, polygons=1, largest=0.2)
+    for seed in (1, 2):
+        room = generate_room(recipe, seed)
+        assert room.starts is not None
+        start = room.starts[0]
+        scheme = scheme_in(room, start, seed, tick)
+        for number in range(round(30.0 / tick)):
+            now = number * tick
+            seen = Sighting(now, 0.3, 0.5)
+            scheme.update(
+                RobotState(now, nothing, nothing, nothing, np.zeros(8), seen)
+            )
+            phases.add(scheme.phase)
+            if number % 10 == 0:
+                corners = corners_of(scheme.walk.reference, start)
+                least.append(clearance(room, corners))
+    assert min(least) >= MARGIN - 1e-4
+    assert phases == {Phase.STANDING, Phase.WALKING, Phase.HALTING}
+    # Some came near enough to something to be held back.
+    assert min(least) < MARGIN + 0.01
+
+
+@pytest.mark.slow
+def test_an_accepted_step_and_its_halt_keep_clear() -> None:
+    """The halt after each accepted step, from the step's own end."""
+    random = np.random.default_rng(3)
+    room = generate_room(RoomRecipe(2.2, 2.2, discs=2, boxes=1), 2)
+    planner = ManeuverPlanner(GAIT)
+    guard = Guard(
+        KnownRoom(room, Pose(0.0, 0.0, 0.0)), OUTLINE, planner, margin=MARGIN
+    )
+    answers = []
+    for _ in range(20):
+        support = Pose(
+            *random.uniform((-1.1, -1.1, -pi), (1.1, 1.1, pi)).tolist()
+        )
+        foot = Foot(random.choice([-1, 1]))
+        plan = planner.plan(
+            random.uniform(-pi, pi),
+            list(Direction)[random.integers(2)],
+            first_foot=foot,
+            standing=True,
+        )
+        accepted = guard.accepts(plan, support, standing=False)
+        answers.append(accepted)
+        halt = guard.halt_after(plan)
+        landed = support.compose(Pose(*plan.placements[2].tolist()))
+        exact = min(
+            clearance(room, points)
+            for walked, frame in ((plan, support), (halt, landed))
+            for points in OUTLINE.along(
+                walked, frame, "step" if walked is plan else "all"
+            )
+        )
+        if accepted:
+            assert exact >= MARGIN - 1e-9
+        else:
+            # What is refused is near, but for what 32 directions miss.
+            assert exact < MARGIN + 0.01
+    assert 3 < sum(answers) < 17
 
 
 def test_inside_the_margin_only_leaving_is_accepted() -> None:

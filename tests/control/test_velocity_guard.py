@@ -62,7 +62,7 @@ def test_an_admitted_velocity_keeps_clear_until_the_robot_stands(
 ) -> None:
     guard, generator = guard_of(velocities), np.random.default_rng(4)
     changed = 0
-    for _ in range(100):
+    for _ in range(300):
         pose = Pose(
             *generator.uniform((-2.6, -1.6, -pi), (2.6, 1.6, pi)).tolist()
         )
@@ -79,7 +79,7 @@ def test_an_admitted_velocity_keeps_clear_until_the_robot_stands(
         if keeps >= CLEARANCE + 2e-3:
             assert admitted == wish
         changed += admitted != wish
-    assert 10 < changed < 90
+    assert 30 < changed < 270
 
 
 def test_a_robot_that_can_step_sideways_slides_along_a_wall() -> None:
@@ -106,8 +106,8 @@ def test_a_robot_too_near_may_move_away_only() -> None:
     ) in (STILL, BodyVelocity(0.0, 0.0, 0.0))
 
 
-@pytest.mark.parametrize("duration", [0.08, 0.547])
-@pytest.mark.parametrize("gap", [0.2, 0.3, 0.45])
+@pytest.mark.parametrize("duration", [0.08, 0.4, 0.547, 1.0])
+@pytest.mark.parametrize("gap", [0.2, 0.25, 0.3, 0.38, 0.45])
 @pytest.mark.parametrize("kind", ["wall", "pole"])
 def test_no_path_leads_through_a_thin_obstacle(
     kind: str, gap: float, duration: float

@@ -97,7 +97,7 @@ def test_the_page_prints_the_example() -> None:
     assert f"```python\n{code}```" in page.read_text(encoding="utf-8")
 
 
-@pytest.mark.parametrize("lost", ["both"])
+@pytest.mark.parametrize("lost", ["states", "both"])
 def test_it_stops_when_its_network_fails_and_walks_on_afterwards(
     lost: str, start: Callable[..., Any]
 ) -> None:
@@ -115,3 +115,20 @@ def test_it_stops_when_its_network_fails_and_walks_on_afterwards(
     said = play.communicate(timeout=LONGEST)[1]
     assert play.returncode == 0 and "no reports of listen() for" in said
     assert not walker.moves()
+
+
+@pytest.mark.slow
+def test_a_robot_with_a_camera_walks_while_it_sees_its_opponent(
+    start: Callable[..., Any],
+) -> None:
+    pytest.importorskip("cv2")
+    walker = start()
+    play = start("--sensing", "cameras", of=walker, robot=SEEING)
+    until(walker.moves)
+    walker.send(call="lose", **{"for": {"images": LONGEST}})
+    until(lambda: not walker.moves())
+    walker.send(call="lose", **{"for": {"images": 0.0}})
+    until(walker.moves)
+    play.send_signal(signal.SIGINT)
+    said = play.communicate(timeout=LONGEST)[1]
+    assert play.returncode == 0 and "image() returned no new image" in said

@@ -8,10 +8,12 @@ from time import monotonic, sleep
 from types import ModuleType, SimpleNamespace
 from typing import Any
 
+import numpy as np
 import pytest
 
 from stepaside.core.poses import Pose
 from stepaside.drivers.method_thread import SessionLost
+from stepaside.drivers.robot import JointTargets
 from stepaside.drivers.robot_loader import load_robot_class
 from stepaside.drivers.robot_session import RobotSession
 
@@ -157,3 +159,41 @@ def test_a_unitree_walks_by_velocities_that_time_out(
     topic = ("ChannelSubscriber", "rt/odommodestate", "SportModeState_")
     assert topic in sdk.calls
     assert sdk.calls[-2:] == [("SetVelocity", 0.0, 0.0, 0.0, 0.6), ("Close",)]
+
+
+def test_booster_is_driven_by_its_joints(
+    sdk: Sdk, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    motor = SimpleNamespace(q=0.0, kp=0.0, kd=0.0)
+    sdk.answers["motor_cmd_at"] = motor
+    installed(
+        monkeypatch,
+        BOOSTER,
+        ChannelFactory=sdk,
+        B1LocoClient=lambda: sdk,
+        B1LowStateSubscriber=sdk.Subscriber,
+        B1LowCmdPublisher=lambda: sdk,
+        LowCmd=lambda: sdk,
+        LowCmdType=SimpleNamespace(SERIAL="serial"),
+        RobotMode=SimpleNamespace(kCustom="custom", kDamping="damping"),
+    )
+    robot = adapter("booster_joints.py:BoosterJoints")()
+    robot.open()
+    assert robot.listen() is None
+    motors = [SimpleNamespace(q=0.1 * i, dq=-0.1 * i) for i in range(22)]
+    imu = SimpleNamespace(gyro=[1, 2, 3], acc=[0, 0, 9.8], rpy=[0.1, 0.2, 3])
+    sdk.handlers[0](SimpleNamespace(motor_state_serial=motors, imu_state=imu))
+    report = robot.listen()
+    assert report.tilt == (0.1, 0.2)
+    assert robot.joints[21] == "Right_Ankle_Roll"
+    assert report.joint_positions[21] == pytest.approx(2.1)
+    assert report.joint_velocities[10] == pytest.approx(-1.0)
+    targets = JointTargets(*np.ones((3, 22)))
+    for array, value in zip(targets, (0.3, 30.0, 2.0), strict=True):
+        array[21] = value
+    robot.command(targets)
+    assert (motor.q, motor.kp, motor.kd) == (0.3, 30.0, 2.0)
+    assert sdk.calls[-1][0] == "Write"
+    robot.release()
+    modes = [call[1] for call in sdk.calls if call[0] == "ChangeMode"]
+    assert modes == ["custom", "damping"]

@@ -43,7 +43,7 @@ class FormulaExecutor(Executor):
     ) -> Iterator[LegsTrialResult | BodyDeparture]:
         """Deliver velocities that are linear in the command."""
         for trial in trials:
-            if fn.__name__ == run_tracking_walk.__name__:
+            if fn is run_tracking_walk:
                 yield BodyDeparture(0.4, 0.1 * trial.seed, 0.01, 0.002)
                 continue
             delivered = BodyVelocity(*(GAINS @ np.array(trial.command)))

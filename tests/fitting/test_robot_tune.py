@@ -29,6 +29,7 @@ from stepaside.robots.description import (
     load_robot,
 )
 from stepaside.strategies.body_departure import BodyDeparture
+from stored_values import compare_stored, words_of
 
 
 @pytest.fixture(scope="module")
@@ -136,6 +137,7 @@ def test_a_gait_that_is_steady_or_best_is_not_changed(
     result = CliRunner().invoke(main, ["robot", "tune", str(folder)])
     assert result.exit_code == 0, result.output
     assert "description is unchanged" in result.stdout
+    compare_stored("odd_models.json", f"tune {off}", words_of(result.output))
     assert (folder / FILE).read_bytes() == before
 
 
@@ -160,6 +162,8 @@ def test_a_better_gait_is_written_with_what_it_was(
             main, ["robot", "tune", str(folder), *options]
         )
         assert result.exit_code == 0, result.output
+        key = "tune " + " ".join(["better", *options])
+        compare_stored("odd_models.json", key, words_of(result.output))
         text = (folder / FILE).read_text(encoding="utf-8")
         assert text.count("# Tuned by") == 1
         assert f"# tuned, was {stride}" in text
@@ -203,4 +207,5 @@ def test_a_check_prints_what_it_finds(
     )
     passes = kind in ("accurate", "steady")
     assert result.exit_code == (0 if passes else 1), result.output
-    assert ("0.02" in result.output) == (kind != "not")
+    key = " ".join(["check", kind, *options])
+    compare_stored("odd_models.json", key, words_of(result.output))

@@ -89,6 +89,7 @@ def test_a_walk_stops_when_another_commands_the_robot(
     [
         ("frozen", True, "no odometry for"),  # the last message goes on
         ("stays", True, "the pose does not change while the robot is to"),
+        ("pose", (50.0, 0.0, 0.0), "the position jumped by"),
         ("sight_age", 0.7, "the sighting is 0."),
     ],
 )

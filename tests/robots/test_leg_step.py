@@ -4,6 +4,7 @@ from functools import cache
 from pathlib import Path
 from tempfile import mkdtemp
 
+import mujoco
 import numpy as np
 import pytest
 
@@ -77,6 +78,44 @@ def test_the_rows_are_the_derivative_of_their_errors(
             )
     np.testing.assert_array_equal(jacobian[15, :-1], 0.0)
     assert jacobian[15, -1] == 1.0
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_steps_converge_to_feet_and_com_in_mujoco_s_eyes(name: str) -> None:
+    """Six joints a leg, seven, or two of eleven that share a motor."""
+    description = robot(name)
+    legs = LegKinematics(description, tick=TICK)
+    stance = STANCE
+    if name == "nao":
+        stance = BodyReference(
+            *((0.01, 0.0, 0.26), (0.01, 0.05, 0.0, 0.1)),
+            (-0.01, -0.05, 0.0, -0.05),
+        )
+    targets = legs.stand(stance)
+    assert targets.size == len(legs.joint_names)
+    x, y, z = stance.com
+    near = stance._replace(com=(x + 1e-3, y + 1e-3, z - 1e-3))
+    sizes = []
+    for _ in range(6):
+        legs.track(near)
+        sizes.append(float(np.abs(legs.error).max()))
+    assert sizes[0] == pytest.approx(1e-3, rel=0.1)
+    assert sizes[1] < 0.03 * sizes[0] and sizes[2] < 0.03 * sizes[1]
+    assert sizes[-1] < 1e-12
+    model = description.compile()
+    data = mujoco.MjData(model)
+    data.qpos[: legs.posture.size] = legs.posture
+    mujoco.mj_forward(model, data)
+    torso = data.body(description.torso).id
+    assert data.subtree_com[torso] == pytest.approx(near.com, abs=1e-9)
+    for site, foot in (
+        (description.left_foot, near.left_foot),
+        (description.right_foot, near.right_foot),
+    ):
+        assert data.site(site).xpos == pytest.approx(foot[:3], abs=1e-9)
+        axes = data.site(site).xmat.reshape(3, 3)
+        assert np.arctan2(axes[1, 0], axes[0, 0]) == pytest.approx(foot[3])
+        assert axes[2, 2] == pytest.approx(1.0)
 
 
 def test_mirrored_references_have_mirrored_targets() -> None:
