@@ -440,7 +440,7 @@ def main(floor: str, updates: int) -> None:
             f"evader=evader-{floor}.onnx,evasion(safety_radius=100)",
             f"floor={FLOORS[floor]}",
             "pursuer=pursuit",
-            f"seed=0:{max(2, updates // 2)}",
+            f"seed=0:{max(3, updates // 2)}",
         ],
     )
     for row in run_study(study).table(values=["survived", "of_bound"]):

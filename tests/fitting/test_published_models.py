@@ -134,12 +134,15 @@ def test_an_outdated_model_may_include_files(tmp_path: Path) -> None:
     assert analyse_model(whole, []).mass == pytest.approx(25.2)
 
 
-def test_meshes_are_found_in_their_package(tmp_path: Path) -> None:
+@pytest.mark.parametrize("suffix", ["stl", "STL"])
+def test_meshes_are_found_in_their_package(
+    suffix: str, tmp_path: Path
+) -> None:
     folder = tmp_path / "them" / "urdf"
     folder.mkdir(parents=True)
     file = stranger.urdf(folder)
     text = file.read_text()
-    mesh = "package://them/shapes/shell.stl"
+    mesh = f"package://them/shapes/shell.{suffix}"
     shape = f'<geometry><mesh filename="{mesh}"/></geometry>'
     shown = f"<collision>{shape}</collision>"
     place = text.index('<link name="chest">') + len('<link name="chest">')
@@ -151,7 +154,7 @@ def test_meshes_are_found_in_their_package(tmp_path: Path) -> None:
     corners = places[faces]
     rows = b"".join(bytes(12) + c.tobytes() + bytes(2) for c in corners)
     (tmp_path / "them" / "shapes").mkdir()
-    (tmp_path / "them" / "shapes" / "shell.stl").write_bytes(
+    (tmp_path / "them" / "shapes" / f"shell.{suffix}").write_bytes(
         bytes(80) + len(corners).to_bytes(4, "little") + rows
     )
     assert analyse_model(file, []).missing == ()

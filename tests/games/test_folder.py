@@ -158,6 +158,17 @@ def test_a_changed_byte_is_refused_or_harmless(
     assert refused > 100
 
 
+def test_naos_gaits_are_not_those_of_a_robot_with_its_own(
+    tmp_path: Path,
+) -> None:
+    own = shutil.copytree(load_robot("nao").folder, tmp_path / "mine")
+    file = own / "robot.toml"
+    text = file.read_text("utf-8")
+    file.write_text(text.replace("\nstride = 0.04", "\nstride = 0.03"))
+    with pytest.raises(ConfigurationError, match="has its own"):
+        read_game({"robot": str(own), "gait": "fast"}, base=make_duel())
+
+
 def test_a_run_of_an_own_robot_opens_where_it_is_carried(
     tmp_path: Path,
 ) -> None:

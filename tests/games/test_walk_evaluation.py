@@ -95,3 +95,11 @@ def test_slip_is_the_displacement_of_the_support_foot() -> None:
     slip = figures(rows, times)["slip_per_step_m"]
     # The first sample and the last are left out.
     assert slip == pytest.approx(0.002, rel=1e-9)
+
+
+def test_errors_of_the_estimate_have_the_names_of_their_axes() -> None:
+    rows = record()
+    rows["estimate"][:, 6:] = 0.02, -0.05  # roll, pitch
+    found = figures(rows)["estimation"]
+    assert found["roll_rad"] == pytest.approx(0.02)
+    assert found["pitch_rad"] == pytest.approx(0.05)

@@ -137,3 +137,12 @@ def test_margin_in_single_support_is_that_of_the_sole_that_stands(
     expected = np.min(edges)
     assert plan.margin(until) == pytest.approx(expected, abs=1e-4)
     assert 0.01 < np.abs(plan.correction[1]) < 0.04
+
+
+@pytest.mark.parametrize("standing", [False, True])
+def test_a_schedule_lasts_as_long_as_its_steps(standing: bool) -> None:
+    schedule = PLANNER.schedule(3, standing=standing)
+    first = GAIT.start_support if standing else 0.0
+    lasts = 3 * GAIT.step_duration + first
+    assert schedule.duration == pytest.approx(lasts)
+    assert schedule.first_step_duration == GAIT.step_duration + first

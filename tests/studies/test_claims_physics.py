@@ -269,3 +269,15 @@ def test_settling_is_required_before_the_last_third() -> None:
     """Radii and distance are measured over the last third."""
     third = read.CIRCLE_TIME * 2.0 / 3.0
     assert claims("humanoids")["settled"].expected == third
+
+
+def test_the_walking_speed_is_that_of_the_last_third() -> None:
+    def late(rows: Array) -> Array:
+        half = len(rows) // 2
+        return np.concatenate([rows[:1].repeat(half, axis=0), rows[:-half]])
+
+    walked = walked_duel()
+    slow = changed(walked, evader_torso=late)
+    found = read.walking_speed(slow, "evader")
+    whole = read.walking_speed(walked, "evader")
+    assert found == pytest.approx(whole, rel=1e-6)

@@ -6,8 +6,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from click.testing import CliRunner
 
 import stepaside as sa
+from stepaside.cli.main import main
 from stepaside.core.errors import ConfigurationError
 from stepaside.games.game_settings import duel, read_game
 from stepaside.sim.body_settings import BODIES
@@ -65,6 +67,7 @@ def test_a_record_has_what_varies_and_what_came_out() -> None:
         (0.8, 2.0),
     ]
     assert all(row["closest_m"]["mean"] <= row["distance"] for row in rows)
+    assert all([*row["outcome"]] == ["completed"] for row in rows)
 
 
 def test_whatever_changes_a_result_changes_its_key(tmp_path: Path) -> None:
@@ -131,6 +134,8 @@ def test_a_preset_is_a_study(name: str) -> None:
     study = sa.load_study(name)
     assert study.name == name and len(study.cases) > 10
     assert study.values
+    shown = CliRunner().invoke(main, ["study", name, "--settings"])
+    assert shown.output == (PRESETS / f"{name}.toml").read_text("utf-8")
 
 
 def test_a_preset_is_changed_by_words() -> None:
