@@ -57,7 +57,7 @@ def content_of(value: Any) -> Iterator[str | float]:
     """Yield the texts and numbers in a value; of arrays three rows."""
     if is_dataclass(value):
         for field in fields(value):
-            if not field.name.endswith(("uuid", "container_id")):
+            if not field.name.endswith(("uuid", "container_id", "order")):
                 yield from content_of(getattr(value, field.name))
     elif isinstance(value, Mapping):
         for name, each in value.items():
