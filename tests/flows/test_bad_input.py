@@ -37,6 +37,8 @@ CASES = {  # of each line: what the message names
     "study tournament --set seed=5:2 --output new.sqlite": ("at least one",),
     "robot init robot.urdf --output new": ("robot.urdf", "XML"),
     "robot legs inspect junk.onnx": ("junk.onnx", "ONNX"),
+    "serve --ros2 evader=/a --wait nan": ("wait", "nan"),
+    "serve --ros2 evader=/a --set level=steps": ("level", "steps"),
     "show run -o new.html": ("run", "summary.json"),
     "theory circle --figure new.bmp": ("--figure", ".png", "new.bmp"),
     "duel --pursuer person --set person.path=table.csv": ("table.csv", "y"),
