@@ -51,6 +51,8 @@ def test_the_interval_of_a_mean_is_students(number: int) -> None:
 def test_an_unknown_value_is_refused_with_those_that_exist() -> None:
     with pytest.raises(ConfigurationError, match="who, outcome.*'speed'"):
         tabulate(RECORDS, ["who"], ["speed"])
+    (row,) = tabulate([{"walking": None}], [], ["walking.steps"])
+    assert row["walking.steps"] is None  # a level without steps
 
 
 @pytest.mark.parametrize("number", [1, 20, 63, 800])

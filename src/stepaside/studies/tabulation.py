@@ -36,14 +36,17 @@ def tabulate(
         without any value.
 
     Raises:
-        ConfigurationError: If no record has one of the values.
+        ConfigurationError: If no record has one of the values, nor the part
+            of it before the dot.
     """
     groups: dict[str, list[Mapping[str, Any]]] = {}
     for record in records:
         key = json.dumps([record.get(name) for name in by])
         groups.setdefault(key, []).append(record)
+    rows = [r for group in groups.values() for r in group]
     for name in (*by, *values):
-        if groups and not any(name in r for g in groups.values() for r in g):
+        part = name.partition(".")[0]  # None where the level has no such part
+        if rows and not any({name, part} & r.keys() for r in rows):
             names = dict.fromkeys(n for g in groups.values() for n in g[0])
             check_choice(name, names, "by" if name in by else "value")
     return [
