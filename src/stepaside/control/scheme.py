@@ -17,6 +17,7 @@ from ..perception.measurement import RobotState, Sighting
 from ..planning import Foot, GaitSettings
 from ..robots.description import RobotDescription
 from ..robots.leg_kinematics import LegKinematics
+from ..strategies.knowledge import Knowledge
 from ..strategies.strategy import BodyStrategy, Strategy
 from .sight_sources import MeasuredSight, SightSource
 from .strategy_runner import StrategyRunner
@@ -89,6 +90,18 @@ class ControlScheme:
         self.sighting = seen
         decisions.note_players(self.senses.in_sight)
         walk.note(measurement)
+
+    def look(self, measurement: RobotState) -> Knowledge | None:
+        """Return the knowledge for a decision that is due, if one is."""
+        self.sense(measurement)
+        step = self.locomotion.next_step(measurement.time)
+        seen, stands = self.sighting, self.phase is Phase.STANDING
+        if step is None or seen is None or (stands and not seen.settled):
+            return None
+        now, support, side = step
+        return self.decisions.knowledge(
+            now, seen, (support, side), moving=not stands
+        )
 
     def update(self, measurement: RobotState) -> Array:
         """Return the joint targets of one control tick, in [rad].

@@ -1,9 +1,9 @@
 """PettingZoo environments: of a duel, and of any number of players."""
 
 from abc import abstractmethod
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from math import cos, inf, sin
+from math import atan2, cos, inf, sin
 from typing import Any, ClassVar
 
 import numpy as np
@@ -21,18 +21,11 @@ from ..core.errors import (
     check_choice,
 )
 from ..games.floor_games import floor_of, rules_of
-from ..games.floor_world import FloorWorld
 from ..games.game import GameInPlay, Outcome
 from ..games.game_settings import GameSettings
-from ..games.people import FloorPlayer
-from ..games.physics_world import PhysicsWorld
 from ..games.player_settings import PLAYERS
-from ..games.players import RobotPlayer
 from ..games.recorded_game import RecordedGame
 from ..games.settings_reader import load_game
-from ..locomotion.locomotion import Phase
-from ..locomotion.maneuver_walk import RETRY_PERIOD, ManeuverWalk
-from ..planning import Foot
 from ..strategies.knowledge import STAND, Intent, Knowledge, OtherPlayer
 from ..strategies.learned import (
     FARTHEST,
@@ -54,6 +47,7 @@ from .environment_settings import (
 Row = NDArray[np.float32]
 REACH = 2.0  # least half width of an image, in [m]
 BODY = 0.4  # length of a player in an image, in [m]
+PATIENCE = 0.2  # for a player that is kept from starting, in [s]
 # Values that describe one other player: 1 if there is one, cosine and sine of
 # its bearing, distance [v/k], its velocity ahead and to the left [v], 1 if it
 # is an opponent, 1 if it is a teammate.
@@ -81,41 +75,6 @@ class HeldIntent:
     ) -> tuple[Intent, None]:
         """Return the intent."""
         return self.intent, None
-
-
-def look_in_physics(
-    world: PhysicsWorld, name: str, learners: Collection[str]
-) -> Knowledge | None:
-    """Return the knowledge of a learner for a decision that is due.
-
-    People before it move first, as they do when all act.
-    """
-    for player in world.players:
-        if isinstance(player, FloorPlayer):
-            if player.name == name:
-                return player.look()
-            if player.name not in learners:
-                player.tick()
-        elif player.name == name:
-            break
-    robot = world.player(name)
-    assert isinstance(robot, RobotPlayer)
-    scheme, walk, now = robot.scheme, robot.scheme.locomotion, world.time
-    stands = walk.phase is Phase.STANDING
-    if not walk.decides(now) or walk.phase in (Phase.HALTING, Phase.FALLEN):
-        return None
-    scheme.sense(robot.measure())
-    seen, ready = scheme.sighting, True
-    if isinstance(walk, ManeuverWalk):
-        step, ready = walk.step(now), walk.balance.ready
-        foot = step.landing, step.swing
-        if walk.plan is not None:  # the step ended before this tick
-            now = walk.plan_started + walk.plan.schedule.first_step_duration
-    else:
-        foot = walk.support, Foot.LEFT
-    if seen is None or (stands and not (seen.settled and ready)):
-        return None
-    return scheme.decisions.knowledge(now, seen, foot, moving=not stands)
 
 
 class ParallelGames(ParallelEnv[str, Row, Any]):
@@ -227,36 +186,16 @@ class ParallelGames(ParallelEnv[str, Row, Any]):
         return self._game
 
     def known(self, name: str) -> Knowledge | None:
-        """Return the knowledge of a player for its decision.
+        """Return the knowledge of a player that learns for its decision.
 
         None before it sees.
         """
-        world = self.game.world
-        if isinstance(world, FloorWorld) and name not in self._held:
-            return world.knowledge(name)
         return self._known.get(name)
-
-    def _walks(self, name: str) -> bool:
-        """Return whether a player walks."""
-        world = self.game.world
-        if isinstance(world, FloorWorld):
-            return world.motions[name].is_walking
-        assert isinstance(world, PhysicsWorld)
-        return world.player(name).is_moving
 
     def _due(self) -> dict[str, Knowledge]:
         """Return what learners know for decisions that are due."""
-        game, found = self.game, {}
-        for name in self._held:
-            if isinstance(game.world, FloorWorld):
-                due = game.ended or game.world.is_due(name)
-                known = game.world.knowledge(name) if due else None
-            else:
-                assert isinstance(game.world, PhysicsWorld)
-                known = look_in_physics(game.world, name, self._held)
-            if known is not None:
-                found[name] = known
-        return found
+        game = self.game
+        return game.world.due(self._held, ended=game.ended is not None)
 
     def _asks(self, name: str, known: Knowledge) -> bool:
         """Return whether a step ends for a decision that is due.
@@ -264,7 +203,7 @@ class ParallelGames(ParallelEnv[str, Row, Any]):
         It does for one that walks, or has been kept from starting.
         """
         passed = known.time - self._known[name].time
-        kept = passed > RETRY_PERIOD - 1e-9 and self._held[name].intent.walks
+        kept = passed > PATIENCE - 1e-9 and self._held[name].intent.walks
         return known.moving or kept
 
     def step(
@@ -298,12 +237,10 @@ class ParallelGames(ParallelEnv[str, Row, Any]):
         begun, over = game.world.time, False
         while not (over or game.ended):
             game.tick(begun + self.period)
-            late, due = (
-                game.world.time - begun > self.period - 1e-9,
-                self._due(),
-            )
+            due, world = self._due(), game.world
+            late = world.time - begun > self.period - 1e-9
             over = any(self._asks(*each) for each in due.items()) or (
-                late and not any(map(self._walks, names))
+                late and not any(map(world.is_moving, names))
             )
         self._known |= due
         gains = {n: now - before[n] for n, now in self.closest().items()}
@@ -461,13 +398,14 @@ class ParallelDuel(ParallelGames):
         values = observe(known, given.sensed_terms)
         if not given.full_state:
             return values
-        other = self.known(PLAYERS[name == "pursuer"])
-        assert other is not None
-        time, unit = self.game.world.time, length_unit(known.limits)
+        world, unit = self.game.world, length_unit(known.limits)
+        poses, other = world.states(), PLAYERS[name == "pursuer"]
+        (x, y, _), (u, v, theta) = poses[name], poses[other]
+        bearing = atan2(y - v, x - u) - theta  # of this player
         full = (
-            *(cos(other.bearing), sin(other.bearing)),
+            *(cos(bearing), sin(bearing)),
             min(self.closest()["evader"] / unit, FARTHEST),
-            max(0.0, 1.0 - time / self.game.rules.duration),
+            max(0.0, 1.0 - world.time / self.game.rules.duration),
         )
         return np.concatenate([values, np.array(full, np.float32)])
 

@@ -4,7 +4,7 @@ A robot is its template unicycle, which decides at steps or eight times in a
 step, and follows the exact arc of each decision. Times are gait times.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from math import atan2, hypot, inf, pi
 from time import thread_time
 
@@ -42,6 +42,9 @@ class FloorMotion:
     pose: Pose  # present
     due = 0.0  # time of its next decision
     is_walking = True
+
+    def look(self, now: float, seen: Seen) -> Knowledge | None:
+        """Return the knowledge for a decision at a time, if it needs any."""
 
     def decide(self, now: float, seen: Seen) -> None:
         """Decide at a time how to move until the next decision."""
@@ -323,15 +326,21 @@ class FloorWorld:
         """Return the pose of each player in the world, by name."""
         return self._seen
 
-    def knowledge(self, name: str) -> Knowledge | None:
-        """Return the knowledge of a robot for its decision now."""
-        motion = self.motions[name]
-        assert isinstance(motion, FloorWalk)
-        return motion.look(self.time, self._seen)
+    def is_moving(self, name: str) -> bool:
+        """Return whether a player walks."""
+        return self.motions[name].is_walking
 
-    def is_due(self, name: str) -> bool:
-        """Return whether a player decides now."""
-        return self.motions[name].due <= self.time + AT_ONCE
+    def due(
+        self, names: Collection[str], *, ended: bool
+    ) -> dict[str, Knowledge]:
+        """Return what players know for decisions that are due, by name.
+
+        At the end of a game that is each.
+        """
+        now, motions = self.time, self.motions
+        due = [n for n in names if ended or motions[n].due <= now + AT_ONCE]
+        found = {n: motions[n].look(now, self._seen) for n in due}
+        return {n: known for n, known in found.items() if known is not None}
 
     def decide(self) -> None:
         """Let the players decide that are due, all from the same state."""

@@ -1,6 +1,6 @@
 """Game: a world, rules, a judge, and the loop that plays it."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 from itertools import combinations
@@ -13,6 +13,7 @@ from ..core.errors import ReachError, StrategyError
 from ..core.player_identity import PlayerIdentity
 from ..core.poses import Pose
 from ..core.signal_handling import DeferredInterrupt
+from ..strategies.knowledge import Knowledge
 
 ARRIVAL = 0.3  # distance from a goal at which it is reached, in [m]
 REPORT_PERIOD = 0.2  # between two progress reports, in [s]
@@ -49,6 +50,14 @@ class PlayedWorld(Protocol):
 
     def states(self) -> Mapping[str, Pose]:
         """Return the pose of each player in the world, by name."""
+
+    def is_moving(self, name: str) -> bool:
+        """Return whether a player walks."""
+
+    def due(
+        self, names: Collection[str], *, ended: bool
+    ) -> dict[str, Knowledge]:
+        """Return what players know for decisions that are due, by name."""
 
     def apart(self, one: str, other: str) -> float:
         """Return the distance of two bodies by the rules, in [m]."""

@@ -15,7 +15,7 @@ from ..sim.person_motion import PersonMotion
 from ..sim.person_settings import RADIUS
 from ..sim.world import World
 from ..strategies.knowledge import Knowledge
-from .floor_world import AT_ONCE, PERIOD, FloorMotion, FloorWalk, Seen
+from .floor_world import AT_ONCE, PERIOD, FloorMotion, Seen
 from .game import GameInPlay, Outcome
 from .game_settings import GameSettings
 from .player_settings import PlayerSettings
@@ -183,9 +183,8 @@ class FloorPlayer(Player):
         self._body.move(motion.pose)
 
     def look(self) -> Knowledge | None:
-        """Return the knowledge for a decision in this tick; None without."""
+        """Return the knowledge for a decision in this tick, if one is due."""
         motion, seen = self._motion, self._seen_if_due()
-        assert isinstance(motion, FloorWalk)
         return None if seen is None else motion.look(motion.due, seen)
 
     @property

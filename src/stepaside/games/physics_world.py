@@ -1,6 +1,6 @@
 """World of a game in physics, with its players."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import replace
 from functools import partial
 from math import inf
@@ -33,6 +33,7 @@ from ..sim.physics_settings import PhysicsSettings
 from ..sim.push import pushes_by_robot
 from ..sim.simulated_robot import SimulatedRobot
 from ..sim.world import World
+from ..strategies.knowledge import Knowledge
 from ..strategies.strategy import BodyStrategy, Strategy
 from .floor_games import ORIGIN, motion_of, strategy_of, with_body_radius
 from .game import Outcome
@@ -267,6 +268,26 @@ class PhysicsWorld(World):
             )
             for name, truth in self._truths.items()
         }
+
+    def is_moving(self, name: str) -> bool:
+        """Return whether a player walks."""
+        return self.player(name).is_moving
+
+    def due(
+        self, names: Collection[str], *, ended: bool
+    ) -> dict[str, Knowledge]:
+        """Return what players know for decisions that are due, by name.
+
+        Other people before them move first, as they do when all act.
+        """
+        found, left = {}, {*names}
+        for player in self.players:
+            if player.name in left:
+                left.remove(player.name)
+                found[player.name] = player.look()
+            elif left and not isinstance(player, RobotPlayer):
+                player.tick()
+        return {n: known for n, known in found.items() if known is not None}
 
     def apart(self, one: str, other: str) -> float:
         """Return the distance between two torsos, in [m]."""

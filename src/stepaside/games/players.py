@@ -10,6 +10,7 @@ from ..locomotion.maneuver_walk import ManeuverWalk
 from ..perception.measurement import RobotState
 from ..sim.ground_truth import GroundTruth
 from ..sim.simulated_robot import SimulatedRobot
+from ..strategies.knowledge import Knowledge
 
 if TYPE_CHECKING:
     from ..perception.pipeline import Perception
@@ -41,6 +42,9 @@ class Player:
     def is_moving(self) -> bool:
         """Whether it has left its standing state."""
         return True
+
+    def look(self) -> Knowledge | None:
+        """Return the knowledge for a decision in this tick, if one is due."""
 
     def tick(self) -> None:
         """Perceive, decide and act; physics advances afterwards.
@@ -85,6 +89,11 @@ class RobotPlayer(Player):
     def perception(self) -> "Perception | None":
         """Perception by cameras, if it has one."""
         return self.scheme.senses.cameras
+
+    def look(self) -> Knowledge | None:
+        """Return the knowledge for a decision in this tick, if one is due."""
+        due = self.walk.decides(self.robot.world.time)
+        return self.scheme.look(self.measure()) if due else None
 
     def tick(self) -> None:
         """Read the sensors, decide, and send joint targets."""

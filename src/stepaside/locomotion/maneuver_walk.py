@@ -135,6 +135,17 @@ class ManeuverWalk:
             return now >= self._blocked_until
         return now >= self._plan_ends - 1e-9
 
+    def next_step(self, now: float) -> tuple[float, Pose, Foot] | None:
+        """Return time [s] and support of a step to decide on, if any is."""
+        if self.phase in (Phase.HALTING, Phase.FALLEN):
+            return None
+        if not (self.decides(now) and (self.plan or self.balance.ready)):
+            return None
+        step = self.step(now)
+        # A step ends before the tick.
+        begins = self._plan_ends if self.plan else now
+        return begins, step.landing, step.swing
+
     def coast(self, now: float) -> Array | None:
         """Run a control tick that needs neither measurement nor decision.
 
@@ -217,8 +228,7 @@ class ManeuverWalk:
             self._stand()
             return
         self._first_foot = plan.first_foot.other
-        ended = self.plan_started + plan.schedule.first_step_duration
-        self._replan(ended, landed, state, decisions, standing=False)
+        self._replan(self._plan_ends, landed, state, decisions, standing=False)
 
     def _replan(
         self,

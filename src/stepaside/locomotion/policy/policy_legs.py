@@ -351,6 +351,10 @@ class PolicyWalk:
             return self.legs.ready
         return now >= self._next_decision - 1e-9
 
+    def next_step(self, now: float) -> tuple[float, Pose, Foot] | None:
+        """Return time [s] and support of a step to decide on, if any is."""
+        return (now, self.support, Foot.LEFT) if self.decides(now) else None
+
     def coast(self, now: float) -> None:
         """Return None: every tick needs a measurement."""
 
