@@ -13,8 +13,8 @@ from ..core.entries import to_entries
 from ..core.errors import PlanError
 from ..games.game_settings import GameSettings
 from ..games.game_settings import walk as make_walk
-from ..games.unicycle_settings import UnicycleSettings
 from ..report.result_labels import CIRCLES, label_of
+from ..theory.unicycle.unicycle_settings import UnicycleSettings
 from .main import LazyGroup
 from .options import (
     EXISTING_FILE,

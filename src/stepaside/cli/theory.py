@@ -14,9 +14,9 @@ from ..core.errors import PlanError
 from ..core.progress import ProgressLine
 from ..core.ranges import SEEDS, Range, positive
 from ..core.setting import CheckedSettings, setting
-from ..games.unicycle_settings import UnicycleGameSettings
 from ..planning import PRESETS, Direction, Foot, GaitSettings
 from ..report.result_labels import CIRCLES
+from ..theory.unicycle.unicycle_settings import UnicycleGameSettings
 from .main import LazyGroup
 from .options import figure_option
 from .settings import takes_settings

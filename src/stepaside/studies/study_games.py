@@ -15,10 +15,10 @@ from ..games.game_settings import GameSettings, duel, read_game, walk
 from ..games.player_settings import settings_of
 from ..games.recorded_game import run_game
 from ..games.run import Run
-from ..games.unicycle_settings import UnicycleSettings
 from ..theory.unicycle.certificate import certify
 from ..theory.unicycle.simulation import RelativeStart, simulate
 from ..theory.unicycle.unicycle_game import Unicycles
+from ..theory.unicycle.unicycle_settings import UnicycleSettings
 from .person_encounters import Encounter, play_encounter
 from .push_limit import PushTrial, play_push
 from .tabulation import Record, flat

@@ -18,10 +18,10 @@ from stepaside.core.setting import descriptions_of
 from stepaside.games.game_settings import duel as make_duel
 from stepaside.games.play_settings import PlaySettings
 from stepaside.games.player_settings import PlayerSettings
-from stepaside.games.unicycle_settings import UnicycleSettings
 from stepaside.report.film_settings import FilmSettings
 from stepaside.sim.camera_settings import RoomObject
 from stepaside.sim.push import Push
+from stepaside.theory.unicycle.unicycle_settings import UnicycleSettings
 
 from .markdown import table
 

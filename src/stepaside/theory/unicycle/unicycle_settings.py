@@ -3,11 +3,11 @@
 from dataclasses import dataclass
 from math import pi
 
-from ..core.ranges import Range, positive
-from ..core.setting import CheckedSettings, setting
-from ..theory.unicycle.circles import settling_time
-from ..theory.unicycle.simulation import RelativeStart
-from ..theory.unicycle.unicycle_game import LAWS, SIDE_RULES, Unicycles
+from ...core.ranges import Range, positive
+from ...core.setting import CheckedSettings, setting
+from .circles import settling_time
+from .simulation import RelativeStart
+from .unicycle_game import LAWS, SIDE_RULES, Unicycles
 
 
 @dataclass(frozen=True, slots=True)
