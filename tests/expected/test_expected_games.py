@@ -78,7 +78,7 @@ def test_a_served_duel_moves_robots_on_learned_legs(tmp_path: Path) -> None:
     settings = SHORT.changed(robot=robot, body=sa.BODIES["delayed"])
     dds = pytest.importorskip("stepaside.drivers.ros2_dds")
     with closing(dds.DdsParticipant(20 + os.getpid() % 200)) as joined:
-        served = serve_duel(settings, joined, {}, lock_step=True).run
+        served, _ = serve_duel(settings, joined, {}, lock_step=True)
     played = sa.run_game(settings)
     for name in ("pursuer", "evader"):
         np.testing.assert_array_equal(

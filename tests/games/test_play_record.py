@@ -78,9 +78,11 @@ class Walked:
         self.others: list[tuple[float, float]] = []
         self.frame = evader.frame
         while duel.world.time < 4.0:
+            true = evader.truth
+            torso = *true.position_torso_in_world, true.heading_in_world
             self.true.append(
                 (
-                    evader.torso_in_world,
+                    Pose(*torso),
                     evader.place_in_world,
                     evader.robot.motion()["qpos"].copy(),
                 )

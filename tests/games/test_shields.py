@@ -4,7 +4,7 @@ import pytest
 
 from stepaside.games.game_settings import duel
 from stepaside.games.recorded_game import RecordedGame, run_game
-from stepaside.games.shields import notes_of, reach_of
+from stepaside.games.shields import reach_of
 from stepaside.strategies import (
     STAND,
     ShieldedStrategy,
@@ -42,7 +42,8 @@ def test_shield_of_an_object_knows_the_bodies_as_that_of_settings(
     strategy = ShieldedStrategy(strategy, SHIELD)
     given = RecordedGame(settings, strategies={"evader": strategy})
     assert named.strategies == given.strategies
-    assert notes_of(given.strategies) == []
+    shield = given.strategies["evader"]
+    assert isinstance(shield, ShieldedStrategy) and not shield.assumes
 
 
 def test_run_says_that_departures_of_a_gait_are_assumed(

@@ -97,7 +97,7 @@ def serve(
             name: {"control": with_feedback(settings.player(name).control)}
             for name in settings.robots
         }
-        served = serve_duel(
+        run, timing = serve_duel(
             settings.changed(**feedback),
             dds,
             namespaces,
@@ -105,7 +105,7 @@ def serve(
             lock_step=lockstep,
             patience=wait,
         )
-    finish_run(served.run, folder, as_json, served.timing)
+    finish_run(run, folder, as_json, timing)
 
 
 def _namespaces(texts: Sequence[str]) -> dict[str, str]:

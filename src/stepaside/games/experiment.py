@@ -88,8 +88,9 @@ def import_experiment(bag: Path, words: tuple[str, ...]) -> Run:
         if invalid := len(found) - len(valid):
             notes.append(f"{player} has {invalid} invalid poses; left out")
         tables[player] = _table(player, valid, len(found))
-    if len({*worlds.values()}) > 1:
-        listed = ", ".join(f"{p} in {w}" for p, w in worlds.items())
+    frames = [(p, w) for p, found in worlds.items() for w in sorted(found)]
+    if len({world for _, world in frames}) > 1:
+        listed = _listed(f"{player} in {world}" for player, world in frames)
         raise ConfigurationError(
             f"poses of all players must be in one frame, got {listed}"
         )
@@ -118,7 +119,7 @@ def import_experiment(bag: Path, words: tuple[str, ...]) -> Run:
         gap = float(np.diff(np.concatenate(ends)).max())
         if gap > NOTED_GAP:
             notes.append(f"{player} has no pose for {gap:.2f} s; interpolated")
-    elapsed, world = times - times[0], next(iter(worlds.values()))
+    elapsed, (_, world) = times - times[0], frames[0]
     run = Run(
         name=bag.stem or bag.name,
         settings=ExperimentSettings(bag.name, words, world),
@@ -133,8 +134,8 @@ def import_experiment(bag: Path, words: tuple[str, ...]) -> Run:
 
 def _read_bag(
     bag: Path, sources: Mapping[str, str]
-) -> tuple[dict[str, str], dict[str, Array]]:
-    """Return the frame of each player's poses, and the poses.
+) -> tuple[dict[str, set[str]], dict[str, Array]]:
+    """Return the frames of each player's poses, and the poses.
 
     Sources are frames, or topics that begin with a slash. Columns are the
     times of header and recording [s], x, y, z [m] and heading [rad].
@@ -153,14 +154,7 @@ def _read_bag(
             f"{bag} must be a ROS 2 bag: a folder with metadata.yaml, or a "
             f".mcap or .db3 file, got: {error}"
         ) from error
-    for player, found in worlds.items():
-        if len(found) > 1:
-            raise ConfigurationError(
-                f"poses of {player} must all be in one frame, got "
-                f"{_listed(sorted(found))}"
-            )
-    tables = {player: np.array(found) for player, found in rows.items()}
-    return {player: found.pop() for player, found in worlds.items()}, tables
+    return worlds, {player: np.array(found) for player, found in rows.items()}
 
 
 def _read(

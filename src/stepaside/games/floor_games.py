@@ -1,6 +1,6 @@
 """Worlds and rules of games on the floor, from the settings of a game."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import is_dataclass, replace
 from types import MappingProxyType
 
@@ -19,7 +19,6 @@ from .floor_world import (
     PERIOD,
     FloorAgent,
     FloorMotion,
-    FloorPoint,
     FloorRecorder,
     FloorWalk,
     FloorWorld,
@@ -107,8 +106,7 @@ def motion_of(
     physics = settings.level == "physics"
     assert pose is not None
     if own.decides:
-        opponents, radius = settings.sensed_opponents(own), 0.0
-        strategy = strategy_of(own, given=given, opponents=opponents)
+        strategy, radius = strategy_of(settings, own, given), 0.0
         if solids is not NO_OBSTACLES:
             radius = own.radius + MARGIN
             strategy = with_body_radius(strategy, radius)
@@ -121,6 +119,8 @@ def motion_of(
             obstacles=solids if settings.knows_room else NO_OBSTACLES,
         )
         if velocities is not None and own.body == "robot":
+            from .people import FloorPoint
+
             return FloorPoint(agent, pose, own.gait, period)
         return FloorWalk(
             agent,
@@ -137,10 +137,10 @@ def motion_of(
 
 
 def strategy_of(
+    settings: GameSettings,
     player: PlayerSettings,
-    map_in_world: Pose = ORIGIN,
     given: Strategy | None = None,
-    opponents: Iterable[PlayerSettings] = (),
+    map_in_world: Pose = ORIGIN,
 ) -> Strategy:
     """Return the strategy of a player, or a given one, with its shield.
 
@@ -161,6 +161,7 @@ def strategy_of(
     if player.shield.enabled or isinstance(strategy, BodyStrategy):
         from .shields import shielded
 
+        opponents = settings.sensed_opponents(player)
         strategy = shielded(strategy, player, opponents)
     return strategy
 
@@ -170,9 +171,7 @@ def with_body_radius(strategy: Strategy, radius: float) -> Strategy:
 
     One without an attribute ``body_radius`` is returned unchanged.
     """
-    if not is_dataclass(strategy):
-        return strategy
-    if getattr(strategy, "body_radius", radius) >= radius:
-        return strategy
-    enlarged: Strategy = replace(strategy, body_radius=radius)
-    return enlarged
+    if getattr(strategy, "body_radius", radius) < radius:
+        if is_dataclass(strategy):
+            strategy = replace(strategy, body_radius=radius)
+    return strategy

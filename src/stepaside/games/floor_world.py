@@ -14,8 +14,7 @@ from ..arena import NO_OBSTACLES, ObstacleSet
 from ..arena.obstacles import stop_at, touches
 from ..core.player_identity import PlayerIdentity
 from ..core.poses import Array, Pose, wrap_angle
-from ..locomotion.locomotion import MotionRequest, template_velocity
-from ..planning import Direction, GaitSettings
+from ..planning import Direction
 from ..strategies.decision_maker import (
     DecisionMaker,
     choose_opponent,
@@ -23,9 +22,8 @@ from ..strategies.decision_maker import (
 )
 from ..strategies.knowledge import Knowledge, Limits, OtherPlayer
 from ..strategies.strategy import Strategy
-from ..strategies.velocity_set import STILL, respond
 from .game import GameInPlay, GameObserver, Outcome
-from .trajectory import Trajectory
+from .trajectory import ON_FLOOR, Trajectory
 
 PERIOD = 0.02  # of records, and of the decisions of people, in [s]
 AT_ONCE = 1e-9  # times that differ by less are one instant, in [s]
@@ -41,6 +39,7 @@ class FloorMotion:
 
     pose: Pose  # present
     due = 0.0  # time of its next decision
+    agent: "FloorAgent | None" = None  # of one that follows a strategy
     is_walking = True
 
     def look(self, now: float, seen: Seen) -> Knowledge | None:
@@ -148,6 +147,8 @@ class FloorWalk(FloorMotion):
         decision_times: Of the processor, in [s], noted if it is a list.
     """
 
+    agent: FloorAgent
+
     def __init__(
         self,
         agent: FloorAgent,
@@ -240,52 +241,6 @@ class FloorWalk(FloorMotion):
         return (time - self._since) / (self.due - self._since)
 
 
-class FloorPoint(FloorMotion):
-    """Point that stands for learned legs: it walks in any direction.
-
-    Its velocity follows the commands with the lags of the legs.
-    """
-
-    def __init__(
-        self, agent: FloorAgent, pose: Pose, gait: GaitSettings, step: float
-    ) -> None:
-        """Begin standing, to be integrated in steps, in [s]."""
-        assert agent.limits.velocities is not None
-        self.agent, self._legs = agent, agent.limits.velocities
-        self.pose = pose
-        self._gait, self._step, self._decides_at = gait, step, 0.0
-        self._command = self._actual = STILL
-
-    def decide(self, now: float, seen: Seen) -> None:
-        """Decide if it is time to, and walk on for one step."""
-        self.due = now + self._step
-        if now >= self._decides_at - AT_ONCE:
-            self._begin(now, seen)
-        self._actual = respond(
-            self._actual, self._command, self._legs.lags, self._step
-        )
-
-    def _begin(self, now: float, seen: Seen) -> None:
-        """Choose the command of the legs."""
-        from ..locomotion.policy.policy_legs import decision_interval
-
-        moving = self._command != STILL
-        known = self.agent.look(now, seen, moving=moving)
-        assert known is not None
-        intent, strategy = self.agent.evaluate(known), self.agent.strategy
-        request = MotionRequest(intent, strategy.direction, strategy.saturated)
-        self._command = self._legs.nearest(
-            template_velocity(request, self._gait)
-        )
-        if self._command != STILL:
-            self._decides_at = now + decision_interval(intent, self._gait)
-
-    def pose_at(self, time: float) -> Pose:
-        """Return the pose at a time before the next sample, in [s]."""
-        left = self._step - (self.due - time)
-        return self.pose.compose(Pose(*(left * rate for rate in self._actual)))
-
-
 class FloorWorld:
     """World of a game without bodies; see :class:`~.game.PlayedWorld`.
 
@@ -319,7 +274,7 @@ class FloorWorld:
         return {
             name: own.agent.strategy
             for name, own in self.motions.items()
-            if isinstance(own, FloorWalk | FloorPoint)
+            if own.agent is not None
         }
 
     def states(self) -> dict[str, Pose]:
@@ -429,5 +384,5 @@ class FloorRecorder(GameObserver):
         tracks = {}
         for name, poses in self.poses().items():
             poses[:, 2] = np.unwrap(poses[:, 2])
-            tracks[name] = Trajectory(poses * (1.0, 1.0, 0.0), poses, poses)
+            tracks[name] = Trajectory(poses * ON_FLOOR, poses, poses)
         return tracks

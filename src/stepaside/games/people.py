@@ -8,14 +8,16 @@ import numpy as np
 
 from ..core.errors import ConfigurationError
 from ..core.poses import Pose
+from ..locomotion.locomotion import MotionRequest, template_velocity
+from ..planning import GaitSettings
 from ..sim.crowd_motion import CrowdMotion, Neighbour
-from ..sim.ground_truth import FloorTruth
-from ..sim.person_body import PersonBody, pose_template
+from ..sim.person_body import MarkerBody, PersonBody
 from ..sim.person_motion import PersonMotion
 from ..sim.person_settings import RADIUS
 from ..sim.world import World
 from ..strategies.knowledge import Knowledge
-from .floor_world import AT_ONCE, PERIOD, FloorMotion, Seen
+from ..strategies.velocity_set import STILL, respond
+from .floor_world import AT_ONCE, PERIOD, FloorAgent, FloorMotion, Seen
 from .game import GameInPlay, Outcome
 from .game_settings import GameSettings
 from .player_settings import PlayerSettings
@@ -25,8 +27,6 @@ from .summary import CrowdSummary
 from .trajectory import distance_between
 
 INTRUSIONS = (0.45, 1.2)  # of crowd navigation: intimate and personal, [m]
-MARKER_HEIGHT = 0.27  # that stands for the CoM of a marker, in [m]
-MARKER_REACH = 0.1  # of a marker, which touches nothing, in [m]
 
 
 class MovingPerson(Protocol):
@@ -129,19 +129,52 @@ def _target_of(settings: GameSettings, own: PlayerSettings) -> str:
     )
 
 
-class MarkerBody:
-    """Marker of a unicycle, without contacts."""
+class FloorPoint(FloorMotion):
+    """Point that stands for learned legs: it walks in any direction.
 
-    def __init__(self, world: World, name: str, pose: Pose) -> None:
-        """Set the marker to a pose."""
-        self.name, self.world = name, world
-        self.truth = FloorTruth(pose, reach=MARKER_REACH, height=MARKER_HEIGHT)
-        self.move(pose)
+    Its velocity follows the commands with the lags of the legs.
+    """
 
-    def move(self, pose: Pose) -> None:
-        """Move to a pose in the world."""
-        self.truth.pose = pose
-        pose_template(self.world.model, self.world.data, self.name, pose)
+    agent: FloorAgent
+
+    def __init__(
+        self, agent: FloorAgent, pose: Pose, gait: GaitSettings, step: float
+    ) -> None:
+        """Begin standing, to be integrated in steps, in [s]."""
+        assert agent.limits.velocities is not None
+        self.agent, self._legs = agent, agent.limits.velocities
+        self.pose = pose
+        self._gait, self._step, self._decides_at = gait, step, 0.0
+        self._command = self._actual = STILL
+
+    def decide(self, now: float, seen: Seen) -> None:
+        """Decide if it is time to, and walk on for one step."""
+        self.due = now + self._step
+        if now >= self._decides_at - AT_ONCE:
+            self._begin(now, seen)
+        self._actual = respond(
+            self._actual, self._command, self._legs.lags, self._step
+        )
+
+    def _begin(self, now: float, seen: Seen) -> None:
+        """Choose the command of the legs."""
+        from ..locomotion.policy.policy_legs import decision_interval
+
+        moving = self._command != STILL
+        known = self.agent.look(now, seen, moving=moving)
+        assert known is not None
+        intent, strategy = self.agent.evaluate(known), self.agent.strategy
+        request = MotionRequest(intent, strategy.direction, strategy.saturated)
+        self._command = self._legs.nearest(
+            template_velocity(request, self._gait)
+        )
+        if self._command != STILL:
+            self._decides_at = now + decision_interval(intent, self._gait)
+
+    def pose_at(self, time: float) -> Pose:
+        """Return the pose at a time before the next sample, in [s]."""
+        left = self._step - (self.due - time)
+        return self.pose.compose(Pose(*(left * rate for rate in self._actual)))
 
 
 class FloorPlayer(Player):
@@ -160,7 +193,6 @@ class FloorPlayer(Player):
     ) -> None:
         """Combine a motion, its body in a world, and what it sees."""
         self.name, self._motion, self._seen = own.name, motion, seen
-        self._body: PersonBody | MarkerBody
         made = PersonBody if own.body == "person" else MarkerBody
         self._body = made(world, own.name, motion.pose)
         self.truth = self._body.truth

@@ -195,10 +195,9 @@ class PhysicsWorld(World):
         physics = _physics_of(settings, self._setups)
         self.strategies = {
             own.name: strategy_of(
-                own,
-                self._map_in_world(own),
-                strategies.get(own.name),
-                settings.sensed_opponents(own),
+                *(settings, own, strategies.get(own.name)),
+                # The frame in which a robot knows places.
+                ORIGIN if settings.knows_room else own.pose or ORIGIN,
             )
             for own in settings.players
             if own.body == "robot" and own.name not in remote
@@ -240,11 +239,8 @@ class PhysicsWorld(World):
             moved.get(own.name) or self._robot(own) for own in settings.players
         )
         self._walkers = [p for p in self.players if isinstance(p, RobotPlayer)]
-        self._heads = [
-            robot.perception.head
-            for robot in self._walkers
-            if robot.perception is not None
-        ]
+        seen = [robot.perception for robot in self._walkers]
+        self._heads = [each.head for each in seen if each is not None]
         mujoco.mj_forward(self.model, self.data)
         if settings.pushes:
             pushes = pushes_by_robot(settings.pushes, settings.robots)
@@ -262,12 +258,7 @@ class PhysicsWorld(World):
 
     def states(self) -> dict[str, Pose]:
         """Return reference point and heading of each player, by name."""
-        return {
-            name: Pose(
-                *truth.position_reference_in_world, truth.heading_in_world
-            )
-            for name, truth in self._truths.items()
-        }
+        return {own.name: own.place_in_world for own in self.players}
 
     def is_moving(self, name: str) -> bool:
         """Return whether a player walks."""
@@ -345,11 +336,6 @@ class PhysicsWorld(World):
             },
             tick=tick,
         )
-
-    def _map_in_world(self, own: PlayerSettings) -> Pose:
-        """Return the pose of the frame in which a robot knows places."""
-        known = self._settings.knows_room  # in the frame of the room
-        return ORIGIN if known or own.pose is None else own.pose
 
     def _robot(self, own: PlayerSettings) -> RobotPlayer:
         """Place a robot in the world, with sensors and controller."""

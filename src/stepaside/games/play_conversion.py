@@ -31,7 +31,7 @@ from .play_settings import PlaySettings
 from .player_settings import PLAYERS
 from .run import Run
 from .summary import PlanningSummary, PlaySummary, StateChange, Summary
-from .trajectory import Trajectory
+from .trajectory import ON_FLOOR, Trajectory
 
 PERIOD = 0.02  # approximate smallest period of the samples of a run, in [s]
 MAX_GAP = 10.0  # between ticks of one clock, in [s]
@@ -147,12 +147,9 @@ def _own(rows: PlayedRows, settings: PlaySettings, sight: Array) -> Trajectory:
     sampled = rows.sampled
     torso = rows.columns["pose"][sampled].copy()
     torso[:, 2] = np.unwrap(torso[:, 2])
-    com = torso.copy()
-    com[:, 2] = 0.0
     commands = [rows.columns[name][sampled] for name in ("wanted", "velocity")]
-    return Trajectory(
-        com=com, torso=torso, sight=sight, command=np.hstack(commands)
-    )
+    command, com = np.hstack(commands), torso * ON_FLOOR
+    return Trajectory(com=com, torso=torso, sight=sight, command=command)
 
 
 def _summary(rows: PlayedRows, run: Run) -> Summary:
@@ -229,9 +226,7 @@ def opponent_trajectory(
     # Before its first sighting the opponent is put at that sighting.
     newest = np.searchsorted(arrived, times + 1e-9, side="right") - 1
     torso = rows[np.maximum(newest, 0)]
-    com = torso.copy()
-    com[:, 2] = 0.0
-    return Trajectory(com=com, torso=torso)
+    return Trajectory(com=torso * ON_FLOOR, torso=torso)
 
 
 class OdometryPath:

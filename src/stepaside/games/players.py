@@ -33,12 +33,6 @@ class Player:
         return Pose(*truth.position_reference_in_world, truth.heading_in_world)
 
     @property
-    def torso_in_world(self) -> Pose:
-        """Origin and heading of the torso."""
-        truth = self.truth
-        return Pose(*truth.position_torso_in_world, truth.heading_in_world)
-
-    @property
     def is_moving(self) -> bool:
         """Whether it has left its standing state."""
         return True
@@ -60,11 +54,10 @@ class Player:
         Closely with all that is measured of it. References of centers are in
         its odometry.
         """
-        return {
-            "com": self.truth.position_com_in_world,
-            "place": self.place_in_world,
-            "torso": self.torso_in_world,
-        }
+        truth, place = self.truth, self.place_in_world
+        torso = (*truth.position_torso_in_world, place.theta)
+        com = truth.position_com_in_world
+        return {"com": com, "place": place, "torso": torso}
 
 
 class RobotPlayer(Player):

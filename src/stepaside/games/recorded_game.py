@@ -129,11 +129,11 @@ class RecordedGame(GameInPlay):
             from .people import crowds_of
 
             crowds = crowds_of(run, self)
-        played, notes = self.strategies, list[str]()
-        if any(isinstance(own, BodyStrategy) for own in played.values()):
-            from .shields import notes_of
-
-            notes = notes_of(played)
+        notes = [
+            f"{name}: {own.assumes}"
+            for name, own in self.strategies.items()
+            if isinstance(own, BodyStrategy) and own.assumes
+        ]
         players = {
             own.name: replace(
                 summary.players[own.name],

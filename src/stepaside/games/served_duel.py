@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
 from time import monotonic, sleep
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from ..core.errors import ConfigurationError
 from .game import GameInPlay, GameObserver, Progress, play
@@ -115,13 +115,6 @@ class ClientSynchroniser(GameObserver):
         return any(server.connected for server in self._servers)
 
 
-class ServedDuel(NamedTuple):
-    """Finished served duel."""
-
-    run: Run
-    timing: dict[str, int]  # numbers of late ticks and unanswered frames
-
-
 def serve_duel(
     settings: GameSettings,
     dds: "DdsParticipant",
@@ -131,10 +124,11 @@ def serve_duel(
     lock_step: bool = False,
     patience: float = 60.0,
     report: Callable[[Progress], None] | None = None,
-) -> ServedDuel:
+) -> tuple[Run, dict[str, int]]:
     """Play a duel whose robots other processes command by velocities.
 
-    Robots without a namespace are controlled by this process.
+    Robots without a namespace are controlled by this process. Returned with
+    the run are the numbers of late ticks and of unanswered frames.
 
     Args:
         settings: Settings of the duel.
@@ -175,8 +169,5 @@ def serve_duel(
         game.observers += (exchange,)
         exchange.gather(patience)
         play(game, report=report)
-    timing = {
-        "late_ticks": exchange.late,
-        "unanswered_frames": exchange.unanswered,
-    }
-    return ServedDuel(game.run(), timing)
+    late, missing = exchange.late, exchange.unanswered
+    return game.run(), {"late_ticks": late, "unanswered_frames": missing}

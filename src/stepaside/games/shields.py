@@ -1,13 +1,13 @@
 """Shields of the robots of a game, with what is known of all bodies."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
 
 from ..locomotion.departures import load_departure
 from ..robots.description import load_robot
 from ..strategies.body_departure import BodyDeparture
-from ..strategies.shield import ASSUMES, PERSON_REACH, ShieldedStrategy
+from ..strategies.shield import PERSON_REACH, ShieldedStrategy
 from ..strategies.strategy import Strategy
 from .player_settings import PlayerSettings, RobotSettings
 
@@ -31,15 +31,6 @@ def shielded(
         own = with_contact(own, opponents)
     departure = strategy.departure or departure_of(own)
     return replace(strategy, shield=own.shield, departure=departure)
-
-
-def notes_of(strategies: Mapping[str, Strategy]) -> list[str]:
-    """Return what shields assume of the bodies of a game, by player."""
-    return [
-        f"{name}: {ASSUMES}"
-        for name, own in strategies.items()
-        if isinstance(own, ShieldedStrategy) and own.departure is None
-    ]
 
 
 def departure_of(own: RobotSettings) -> BodyDeparture | None:

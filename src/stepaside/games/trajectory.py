@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 
 POSE = ("x_m", "y_m", "heading_rad")
 POINT = ("x_m", "y_m")
+ON_FLOOR = (1.0, 1.0, 0.0)  # times a pose: its position, as that of a CoM
 RATES = ("x_rad_s", "y_rad_s", "z_rad_s")
 OF_EVENTS = ("landings", "sight", "pushes", "plans")  # not of samples
 MAY_LACK = ("zmp", "sight", "estimate", "joint_targets")  # may be NaN

@@ -95,29 +95,6 @@ def set_person_pose(
         data.mocap_quat[index] = quaternion_of(0.0, pitch, frame.theta)
 
 
-class PersonBody:
-    """Body of a person, whose legs swing with the distance walked."""
-
-    def __init__(
-        self,
-        world: World,
-        name: str,
-        pose: Pose,
-    ) -> None:
-        self.name, self.world = name, world
-        self.truth = FloorTruth(pose, reach=REACH, height=1.0)
-        self._parts, self._walked = mocap_indices(world.model, name), 0.0
-        self.move(pose)
-
-    def move(self, pose: Pose) -> None:
-        """Move to a pose in the world."""
-        before = self.truth.pose
-        self._walked += hypot(pose.x - before.x, pose.y - before.y)
-        self.truth.pose = pose
-        data, walked = self.world.data, self._walked
-        set_person_pose(data, self._parts, pose, walked)
-
-
 DISC_RADIUS = 0.07  # in [m]
 DISC_HALF_HEIGHT = 0.006  # in [m]
 MAST_RADIUS = 0.012  # in [m]
@@ -152,3 +129,36 @@ def pose_template(
     data.mocap_pos[at] = pose.x, pose.y, 0.0
     half = 0.5 * pose.theta
     data.mocap_quat[at] = cos(half), 0.0, 0.0, sin(half)
+
+
+class MarkerBody:
+    """Marker of a template, without contacts."""
+
+    # Of a marker, which touches nothing, and that stands for its CoM, in [m].
+    reach, height = 0.1, 0.27
+
+    def __init__(self, world: World, name: str, pose: Pose) -> None:
+        self.name, self.world = name, world
+        self.truth = FloorTruth(pose, reach=self.reach, height=self.height)
+        self.move(pose)
+
+    def move(self, pose: Pose) -> None:
+        """Move to a pose in the world."""
+        self.truth.pose = pose
+        pose_template(self.world.model, self.world.data, self.name, pose)
+
+
+class PersonBody(MarkerBody):
+    """Body of a person, whose legs swing with the distance walked."""
+
+    reach, height = REACH, 1.0
+
+    def __init__(self, world: World, name: str, pose: Pose) -> None:
+        self._parts, self._walked = mocap_indices(world.model, name), 0.0
+        super().__init__(world, name, pose)
+
+    def move(self, pose: Pose) -> None:
+        """Move to a pose in the world."""
+        before, self.truth.pose = self.truth.pose, pose
+        self._walked += hypot(pose.x - before.x, pose.y - before.y)
+        set_person_pose(self.world.data, self._parts, pose, self._walked)

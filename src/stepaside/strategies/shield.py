@@ -379,6 +379,11 @@ class ShieldedStrategy(BodyStrategy):
     departure: BodyDeparture | None = None  # of the body; None: not measured
 
     @property
+    def assumes(self) -> str:
+        """What it assumes of the body; empty for what is measured."""
+        return ASSUMES if self.departure is None else ""
+
+    @property
     def direction(self) -> Direction:
         """That of the strategy."""
         return self.strategy.direction

@@ -43,6 +43,11 @@ class BodyStrategy:
 
     __slots__ = ()
 
+    @property
+    def assumes(self) -> str:
+        """What it assumes of the body; empty for what is measured."""
+        return ""
+
 
 class BackwardStrategy:
     """Base of evaders that drive backward, eq. (3), and turn by (8)."""

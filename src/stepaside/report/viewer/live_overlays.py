@@ -56,7 +56,7 @@ def live_overlays(session: LiveSession) -> list[SceneLines]:
 def places_of(session: LiveSession) -> dict[str, Array]:
     """Return the positions of all players, in [m], by name."""
     return {
-        player.name: np.array(player.torso_in_world[:2])
+        player.name: np.array(player.truth.position_torso_in_world)
         for player in session.world.players
     }
 
