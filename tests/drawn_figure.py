@@ -4,8 +4,10 @@ from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
+from matplotlib.text import Text
 
 
 def content_of(figure: Figure) -> Iterator[Any]:
@@ -47,6 +49,8 @@ def content_of(figure: Figure) -> Iterator[Any]:
             yield from (each.get_text() for each in legend.get_texts())
             frame = legend.get_frame()
             yield f"{frame.get_visible()} {_colour(frame.get_facecolor())}"
+    illegible = [*_illegible(figure)]
+    assert not illegible, illegible
 
 
 def _label(artist: Any) -> str:
@@ -65,3 +69,35 @@ def _mean(points: Any) -> list[float]:
     if not len(rows):
         return [0.0]
     return [float(len(rows)), *rows.mean(axis=0), *rows[-1]]
+
+
+def _illegible(figure: Figure) -> Iterator[str]:
+    """Yield texts that cover another one, or leave the image."""
+    canvas = FigureCanvasAgg(figure)
+    canvas.draw()
+    ticks = [
+        (tick, axis.get_view_interval())
+        for axes in figure.axes
+        for axis in (axes.xaxis, axes.yaxis)
+        for tick in (*axis.majorTicks, *axis.minorTicks)
+    ]
+    beyond = [
+        label
+        for tick, (one, other) in ticks
+        if not min(one, other) <= tick.get_loc() <= max(one, other)
+        for label in (tick.label1, tick.label2)
+    ]
+    seen: list[tuple[str, Any]] = []
+    for text in figure.findobj(Text):
+        assert isinstance(text, Text)
+        if text in beyond or not (text.get_visible() and text.get_text()):
+            continue
+        box = text.get_window_extent(canvas.get_renderer())
+        if not figure.bbox.padded(1.0).contains(box.x0, box.y0) or (
+            not figure.bbox.padded(1.0).contains(box.x1, box.y1)
+        ):
+            yield f"{text.get_text()!r} leaves the image"
+        for other, taken in seen:
+            if taken.padded(-1.0).overlaps(box.padded(-1.0)):
+                yield f"{text.get_text()!r} covers {other!r}"
+        seen.append((text.get_text(), box))

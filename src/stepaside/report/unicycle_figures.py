@@ -214,16 +214,16 @@ def draw_map(
     rows = [LETTERS[wide * i : wide * (i + 1)] for i in range(len(drawn))]
     figure, axes = panels(
         rows,
-        2.7 * wide + 1.4,
+        2.7 * wide + 1.7,
         [1.9] * len(rows),
-        right=0.6,
+        right=0.9,
         gaps=(0.45, 0.4),
         sharex=True,
         sharey=True,
     )
     for row, (values, label, look) in zip(rows, drawn, strict=True):
-        if np.isfinite(values).any():
-            look.setdefault("vmax", np.nanmax(values))
+        found_any = np.isfinite(values).any()
+        look.setdefault("vmax", np.nanmax(values) if found_any else 1.0)
         for letter, i in zip(row, picks, strict=True):
             image = axes[letter].pcolormesh(bearings, aims, values[i], **look)
             axes[letter].set_facecolor("0.8")
