@@ -13,7 +13,8 @@ from matplotlib.text import Text
 def content_of(figure: Figure) -> Iterator[Any]:
     """Yield labels, and the colours and means of all that is drawn."""
     for axes in figure.axes:
-        yield from ("axes", axes.get_title(), axes.get_xlabel())
+        yield from ("axes", *map(float, axes.get_position().bounds))
+        yield from (axes.get_title(), axes.get_xlabel())
         yield from (axes.get_ylabel(), str(axes.get_aspect()))
         yield str(axes.xaxis_inverted() or axes.yaxis_inverted())
         for line in axes.lines:
