@@ -74,7 +74,7 @@ def _mean(points: Any) -> list[float]:
 
 def _illegible(figure: Figure) -> Iterator[str]:
     """Yield texts that cover another one, or leave the image."""
-    canvas = FigureCanvasAgg(figure)
+    canvas: Any = FigureCanvasAgg(figure)
     canvas.draw()
     ticks = [
         (tick, axis.get_view_interval())
