@@ -18,7 +18,7 @@ from dataclasses import (
 from difflib import get_close_matches
 from enum import Enum
 from functools import cache
-from math import isfinite, radians, tau
+from math import inf, isfinite, radians, tau
 from pathlib import Path
 from types import NoneType, UnionType
 from typing import (
@@ -182,6 +182,11 @@ def _entries(kind: Any) -> dict[str, Entry]:
 _PLAIN = Setting("")
 
 
+@cache
+def _parts(hint: Any) -> tuple[Any, tuple[Any, ...]]:
+    return get_origin(hint), get_args(hint)
+
+
 class EntryReader:
     """Reader of values by the types and descriptions of fields.
 
@@ -216,12 +221,16 @@ class EntryReader:
         The base gives values for entries that a table omits.
         """
         range = described.range
-        if hint is float and type(value) is float and range:  # most often
-            if range.low < value <= range.high:
+        if type(value) is hint:  # most often, and then most are valid
+            if hint is float:
+                low, high = range[:2] if range else (-inf, inf)
+                if low < value <= high and value < inf:
+                    return value
+            elif value in described.names or is_dataclass(hint):
                 return value
-        if hint is Any or (type(value) is hint and is_dataclass(value)):
+        elif hint is Any:
             return value
-        origin, args = get_origin(hint), get_args(hint)
+        origin, args = _parts(hint)
         if isinstance(value, str):
             text, value = value, described.meant(value)
             factor = ANGLES.get(text[-3:])
@@ -359,7 +368,7 @@ class EntryReader:
     def _read_array(
         self, value: Any, hint: Any, path: str, described: Setting
     ) -> Any:
-        kind, kinds = get_origin(hint), get_args(hint)
+        kind, kinds = _parts(hint)
         if kind is list or kinds[-1] is ...:
             low, high = described.count or (0, None)
         else:

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, fields, replace
+from functools import cache
 from math import pi
 from typing import Any
 
@@ -451,9 +452,13 @@ def duel(**changes: Any) -> GameSettings:
             :meth:`GameSettings.changed`. For example
             ``duel(seed=2, evader="look-ahead")``.
     """
+    return _default_duel().changed(**changes)
+
+
+@cache
+def _default_duel() -> GameSettings:
     players = tuple(PlayerSettings(name, name) for name in PLAYERS)
-    made = GameSettings("duel", start=StartSettings(), players=players)
-    return made.changed(**changes)
+    return GameSettings("duel", start=StartSettings(), players=players)
 
 
 def walk(

@@ -123,7 +123,8 @@ class Knowledge:
 
     def __post_init__(self) -> None:
         """Check the bearing."""
-        check_within(self.bearing, -tau, tau, "bearing", "rad")
+        if not -tau <= self.bearing <= tau:  # spare a call of the check
+            check_within(self.bearing, -tau, tau, "bearing", "rad")
 
     @property
     def position(self) -> tuple[float, float]:
@@ -201,8 +202,11 @@ class Intent:
 
     def __post_init__(self) -> None:
         """Validate the intent."""
-        check_within(self.heading, -tau, tau, "heading", "rad")
-        check_within(self.speed_factor, 0.0, 1.0, "speed_factor", "1")
+        heading, factor = self.heading, self.speed_factor
+        if type(heading) is not float or not -tau <= heading <= tau:
+            check_within(heading, -tau, tau, "heading", "rad")
+        if type(factor) is not float or not 0.0 <= factor <= 1.0:
+            check_within(factor, 0.0, 1.0, "speed_factor", "1")
         if self.velocity is not None:
             for name, value in self.velocity._asdict().items():
                 unit = "rad/s" if name == "turn" else "m/s"

@@ -39,7 +39,8 @@ class OpponentTrack(NamedTuple):
         # The newest is replaced if it is too close to the one before.
         if len(rows) > 1 and rows[-1].time - rows[-2].time < near:
             rows.pop()
-        rows.append(SeenOpponent(time, *position, own))
+        x, y = position
+        rows.append(SeenOpponent(time, x, y, own))
         return OpponentTrack(self.step, self.span, self.spacing, tuple(rows))
 
     @property

@@ -9,6 +9,7 @@ import re
 from ast import literal_eval
 from collections.abc import Mapping
 from dataclasses import fields, replace
+from functools import lru_cache
 from math import inf, radians
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -102,7 +103,7 @@ def check_strategy_name(
         return
     named = _parse(name, what)
     if named.arguments and named.file is None:
-        _make(named, Evasion(), what)
+        _make(name, Evasion(), what)
 
 
 def load_strategy(
@@ -128,7 +129,7 @@ def load_strategy(
         return name
     named = _parse(name)
     if named.file is None:
-        return _make(named, evasion or Evasion())
+        return _make(name, evasion or Evasion())
     from .own_strategy import create_strategy, validate_strategy
 
     if named.own is None:
@@ -151,6 +152,7 @@ def file_of(name: str) -> Path | None:
     return Path(file).expanduser() if file else None
 
 
+@lru_cache(256)
 def _parse(text: str, what: str = "strategy") -> _Named:
     """Return the parts of the name of a strategy."""
     if text.startswith(OBJECT):
@@ -196,8 +198,10 @@ def _value(text: str) -> Any:
         return text
 
 
-def _make(named: _Named, evasion: Evasion, what: str = "strategy") -> Strategy:
+@lru_cache(256)
+def _make(text: str, evasion: Evasion, what: str = "strategy") -> Strategy:
     """Return a strategy of the table."""
+    named = _parse(text, what)
     kind, values = STRATEGIES[named.name]
     made = getattr(strategies, kind)
     known = [each.name for each in fields(made)]
