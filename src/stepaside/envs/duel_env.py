@@ -337,11 +337,8 @@ class VectorDuel(VectorEnv[Row, Any, Any]):
         """
         if self._seeds is None:
             raise PlanError("reset the environment first: no episode is on")
-        rows, state, rules = (
-            self.settings.intents(actions),
-            self._state,
-            self._rules,
-        )
+        rows = self.settings.intents(actions)
+        state, rules = self._state, self._rules
         if len(rows) != self.num_envs:
             raise PlanError(
                 f"there must be {self.num_envs} actions, got {len(rows)}"

@@ -230,9 +230,7 @@ class ParallelGames(ParallelEnv[str, Row, Any]):
                     f"{', '.join(actions) or 'no agent'}"
                 )
             heading, speed = self._choice.intents([actions[name]])[0].tolist()
-            self._held[name].intent = (
-                Intent(heading, speed) if speed > 0.0 else STAND
-            )
+            self._held[name].intent = Intent(heading, speed)
         before = self.closest()
         begun, over = game.world.time, False
         while not (over or game.ended):

@@ -1,6 +1,6 @@
 """Cameras, perception and its evaluation in a game with camera sensing."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from math import atan2, radians
 
 import numpy as np
@@ -39,6 +39,7 @@ from ..sim.offscreen_rendering import (
 from ..sim.sensor_suite import SensorSuite
 from ..sim.simulated_robot import SimulatedRobot
 from ..sim.world import World
+from ..strategies.strategy import Strategy
 from .game import GameInPlay, GameObserver
 from .game_settings import GameSettings
 from .player_settings import PlayerSettings
@@ -204,15 +205,15 @@ class CameraSenses:
         self,
         settings: GameSettings,
         description: RobotDescription,
-        directions: Mapping[str, Direction],
+        strategies: Mapping[str, Strategy],
         *,
         tick: float,
     ) -> None:
         """Prepare the perception of the robots of a game.
 
         All are of one model. A robot that perceives in this process has a
-        driving direction; one that walks backward and has no camera on its
-        torso scans the room behind.
+        strategy; one that walks backward and has no camera on its torso scans
+        the room behind.
         """
         # The simulation is sequential; threads of OpenCV would only wait.
         cv2.setNumThreads(1)
@@ -221,18 +222,18 @@ class CameraSenses:
         self.renderer = choose_renderer(settings.cameras.colour.renderer)
         self._screen: OffscreenRenderer | None = None
         self.perceptions = {
-            name: self._perception(name, direction, tick)
-            for name, direction in directions.items()
+            own.name: self._perception(own, strategies[own.name], tick)
+            for own in settings.sensing_by("cameras")
+            if own.name in strategies
         }
 
     def _perception(
-        self, name: str, direction: Direction, tick: float
+        self, own: PlayerSettings, strategy: Strategy, tick: float
     ) -> Perception:
         """Build the perception of a robot."""
-        own, scan, glances = self._settings.player(name), None, None
-        views = self._fixed_views(own)
+        views, scan, glances = self._fixed_views(own), None, None
         if self._settings.maps_room:
-            backward = direction is Direction.BACKWARD and not views
+            backward = strategy.direction is Direction.BACKWARD and not views
             often = own.role == "evader" and not views
             scan = RoomScan(behind=backward)
             glances = Glances(tick, OFTEN if often else SELDOM)
@@ -287,26 +288,26 @@ class CameraSenses:
             )
         return self._screen
 
-    def evaluator_of(
+    def evaluators(
         self,
-        robot: SimulatedRobot,
-        own: PlayerSettings,
+        robots: Iterable[SimulatedRobot],
         truths: Mapping[str, GroundTruth],
         every: int,
-    ) -> "SightEvaluator | None":
-        """Return the evaluation of a robot's sightings of its opponent.
+    ) -> dict[str, SightEvaluator]:
+        """Return the evaluation of robots' sightings of their opponents.
 
         Of several opponents a sighting does not say whom it shows.
         """
-        others = self._settings.sensed_opponents(own)
-        if own.name not in self.perceptions or len(others) != 1:
-            return None
-        return SightEvaluator(
-            robot,
-            truths[others[0].name],
-            self.perceptions[own.name],
-            self._head,
-            [(thing.x, thing.y) for thing in self._settings.scene.things],
-            wears_trim=others[0].body == "robot",
-            every=every,
-        )
+        settings, found = self._settings, {}
+        things = [(thing.x, thing.y) for thing in settings.scene.things]
+        for robot in robots:
+            perception = self.perceptions.get(robot.name)
+            others = settings.sensed_opponents(settings.player(robot.name))
+            if perception is not None and len(others) == 1:
+                found[robot.name] = SightEvaluator(
+                    *(robot, truths[others[0].name], perception),
+                    *(self._head, things),
+                    wears_trim=others[0].body == "robot",
+                    every=every,
+                )
+        return found

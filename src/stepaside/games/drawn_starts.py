@@ -178,11 +178,9 @@ def _draw_heading(
     generator: np.random.Generator,
 ) -> float:
     own = poses[player.name]
-    names = [player.target] if player.target else []
-    names = names or [*settings.opponents_of(player.name)]
-    if not names or player.role == "bystander":
+    others = [poses[p.name] for p in settings.sensed_opponents(player)]
+    if not others or player.role == "bystander":
         return float(generator.uniform(-pi, pi))
-    others = (poses[name] for name in names)
     nearest = min(others, key=lambda pose: dist(pose[:2], own[:2]))
     sight = atan2(nearest.y - own.y, nearest.x - own.x)
     most = pi / 2 if player.role == "pursuer" else radians(30.0)

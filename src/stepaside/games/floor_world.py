@@ -216,11 +216,7 @@ class FloorWalk(FloorMotion):
         """Return the pose at a time before the next decision, in [s]."""
         if not self.is_walking or time <= self._since:
             return self.pose
-        return self._pose_after(self._share_at(time))
-
-    def _pose_after(self, share: float) -> Pose:
-        """Return the pose after a share of the motion until the decision."""
-        way, turn = self._left
+        share, (way, turn) = self._share_at(time), self._left
         pose = self.pose.along_arc(share * way, share * turn)
         if self._walls is NO_OBSTACLES:
             return pose
@@ -230,11 +226,10 @@ class FloorWalk(FloorMotion):
 
     def advance(self, until: float) -> None:
         """Move to a time, in [s]."""
-        if not self.is_walking or until <= self._since:
-            return
-        share, (way, turn) = self._share_at(until), self._left
-        self.pose, self._since = self._pose_after(share), until
-        self._left = (1.0 - share) * way, (1.0 - share) * turn
+        if self.is_walking and until > self._since:
+            left, (way, turn) = 1.0 - self._share_at(until), self._left
+            self.pose, self._since = self.pose_at(until), until
+            self._left = left * way, left * turn
 
     def _share_at(self, time: float) -> float:
         """Return the share of the motion until the decision at a time."""

@@ -80,17 +80,11 @@ def walk_of(
         target = _target_of(settings, own)
         walk = walk_on_path(settings, own)
         return FloorPerson(walk, lambda seen: seen[target][:2], period)
-    # Whether they walk with it: who shares a named team is a group.
-    people = {
-        p.name: p.team == own.team != "" and p is not own
-        for p in settings.players
-        if p.body == "person"
-    }
-    bodies = {
-        p.name: (p.name in people, p.radius, people.get(p.name, False))
-        for p in settings.players
-        if p is not own
-    }
+    bodies = {}  # whether it is a person, radius [m], whether in its group
+    for p in settings.players:
+        person, same = p.body == "person", p.team == own.team != ""
+        bodies[p.name] = person, p.radius, person and same
+    del bodies[own.name]
 
     def neighbours(seen: Seen) -> list[Neighbour]:
         return [
@@ -120,10 +114,8 @@ def _target_of(settings: GameSettings, own: PlayerSettings) -> str:
     if own.target:
         return own.target
     opposing = [p for p in others if own.identity.opposes(p.identity)]
-    deciding = [p for p in others if p.decides]
-    for candidates in (opposing, deciding, others):
-        if candidates:
-            return candidates[0].name
+    for each in (*opposing, *(p for p in others if p.decides), *others):
+        return each.name
     raise ConfigurationError(
         f"{own.name}: a person without a goal needs another player, got none"
     )
@@ -235,10 +227,8 @@ class FloorPlayer(Player):
 
 def crowds_of(run: Run, game: GameInPlay) -> dict[str, CrowdSummary]:
     """Measure the encounter of each robot with people, by name."""
-    people, times = (
-        [run.tracks[name].unicycle for name in run.persons],
-        run.times,
-    )
+    times = run.times
+    people = [run.tracks[name].unicycle for name in run.persons]
     period = float(times[1] - times[0]) if len(times) > 1 else 0.0
     found = {}
     for own in run.settings.players:

@@ -220,7 +220,7 @@ class PhysicsWorld(World):
             move(0.0)
             self.before_step.append(move)
         # An ideal sensor needs the true states of all other players.
-        truths: dict[str, GroundTruth] = {
+        self._truths: dict[str, GroundTruth] = {
             name: setup.true_state_in(self)
             for name, setup in self._setups.items()
         }
@@ -233,8 +233,7 @@ class PhysicsWorld(World):
                 motion = motion_of(settings, own, self.physics.tick, given)
                 player = FloorPlayer(self, own, motion, self.states)
                 moved[own.name] = player
-                truths[own.name] = player.truth
-        self._truths = {name: truths[name] for name in settings.names}
+                self._truths[own.name] = player.truth
         self.players: tuple[Player, ...] = tuple(
             moved.get(own.name) or self._robot(own) for own in settings.players
         )
@@ -329,11 +328,7 @@ class PhysicsWorld(World):
         return CameraSenses(
             self._settings,
             self._setups[seeing[0].name].description,
-            {
-                own.name: self.strategies[own.name].direction
-                for own in seeing
-                if own.name in self.strategies
-            },
+            self.strategies,
             tick=tick,
         )
 
@@ -424,14 +419,10 @@ class PhysicsWorld(World):
 
         They are sampled after a number of control ticks.
         """
-        found, senses = {}, self._senses
-        for own in self._walkers if senses else ():
-            assert senses is not None
-            settings = self._settings.player(own.name)
-            seen = (own.robot, settings, self._truths, every)
-            if (evaluator := senses.evaluator_of(*seen)) is not None:
-                found[own.name] = evaluator
-        return found
+        if self._senses is None:
+            return {}
+        robots = [own.robot for own in self._walkers]
+        return self._senses.evaluators(robots, self._truths, every)
 
 
 def _setups_of(

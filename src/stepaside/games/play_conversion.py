@@ -28,7 +28,7 @@ from ..robots.forward_kinematics import (
 from .evaluation import measure
 from .game import Outcome
 from .play_settings import PlaySettings
-from .player_settings import PLAYERS
+from .player_settings import PLAYERS, PURSUER
 from .run import Run
 from .summary import PlanningSummary, PlaySummary, StateChange, Summary
 from .trajectory import ON_FLOOR, Trajectory
@@ -124,8 +124,8 @@ def run_of_play(
     other = opponent_trajectory(found, times, own.unicycle)
     tracks = {settings.role: own}
     if other is not None:
-        both = tracks | {settings.other: other}
-        tracks = {player: both[player] for player in PLAYERS}
+        both = (own, other) if settings.role == PURSUER else (other, own)
+        tracks = dict(zip(PLAYERS, both, strict=True))
     run = Run(
         name=name,
         settings=settings,
@@ -246,8 +246,7 @@ class OdometryPath:
         """Take rows, and roll and pitch of the torso in each, in [rad]."""
         self._rows, self._columns = rows, rows.columns
         self._forward = ForwardKinematics(description)
-        tree = self._forward.tree
-        self._tree = tree
+        self._tree = tree = self._forward.tree
         self._moved, self._fixed = tree.moved_by(
             tree.motors, description.standing
         )
@@ -264,7 +263,7 @@ class OdometryPath:
         """Return the trajectory in the odometry of the first controller."""
         columns, frames = self._columns, self._frames()
         references = ("com_reference", "zmp_reference")
-        rows: dict[str, list[Any]] = {}
+        samples = list[dict[str, Any]]()
         for row in self._rows.sampled.tolist():
             frame = frames[float(columns["mind"][row])]
             posture, body = self._stand(row, frame)
@@ -281,10 +280,10 @@ class OdometryPath:
             }
             for name in references:
                 values[name] = frame.transform_points(columns[name][row])
-            for name, value in values.items():
-                rows.setdefault(name, []).append(value)
+            samples.append(values)
         arrays: dict[str, Any] = {
-            name: np.array(values) for name, values in rows.items()
+            name: np.array([own[name] for own in samples])
+            for name in samples[0]
         }
         for name in ("gyro", "accelerometer", "foot_forces"):
             arrays[name] = columns[name][self._rows.sampled]

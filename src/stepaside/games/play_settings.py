@@ -10,7 +10,7 @@ from ..core.setting import check_settings, setting
 from ..core.user_file import FILE_AND_NAME
 from ..sim.camera_settings import CameraSettings
 from ..strategies.registry import check_strategy_name
-from .player_settings import EVADER, PLAYERS, PURSUER, RobotSettings
+from .player_settings import EVADER, PLAYERS, RobotSettings
 
 LOLA, NAOQI, ROS2, RCSS = "lola:", "naoqi:", "ros2:", "rcss:"
 PYTHON = "python"  # language of a robot that is a class
@@ -145,11 +145,6 @@ class PlaySettings(RobotSettings):
     def on_nao(self) -> bool:
         """Whether the protocol is that of a NAO, with its chest button."""
         return self.address.startswith((LOLA, NAOQI))
-
-    @property
-    def other(self) -> str:
-        """Role of the opponent."""
-        return PURSUER if self.role == EVADER else EVADER
 
     def player(self, name: str) -> Self:
         """Return the settings of a player's robot: both have the same."""

@@ -193,17 +193,12 @@ def run_game(
     report: Report | None = None,
     strategies: Mapping[str, Strategy] = MappingProxyType({}),
 ) -> Run:
-    """Play a game at its level to its end.
+    """Play a game at its level to its end; return its run.
 
-    Args:
-        settings: Settings of the game.
-        report: Called about five times a second with the progress. A
-            KeyboardInterrupt while playing ends the game; the part that was
-            played is returned.
-        strategies: Strategies as objects, by name of the player.
-
-    Returns:
-        The run. Equal settings give equal runs, except for computing times.
+    Equal settings give equal runs, except for computing times. Progress is
+    reported about five times a second. A KeyboardInterrupt while playing ends
+    the game; the part that was played is returned. Strategies as objects
+    replace those of the settings, by name of the player.
 
     Raises:
         StepAsideError: If the settings contradict each other or cannot be

@@ -8,7 +8,6 @@ import numpy as np
 from ..core.poses import Array, Pose
 from ..locomotion.locomotion import StepStarted
 from ..perception.images import ColourImage, DepthImage
-from ..planning import Foot
 from .floor_world import PERIOD
 from .game import GameInPlay, GameObserver
 from .physics_world import PhysicsWorld
@@ -112,11 +111,7 @@ class PlayerRecord:
 
     def _landings(self, frame: Pose) -> Array:
         rows = [
-            (
-                step.landing_time,
-                1.0 if step.foot is Foot.LEFT else -1.0,
-                *frame.compose(step.landing),
-            )
+            (step.landing_time, step.foot.value, *frame.compose(step.landing))
             for step in self.begun
         ]
         return np.array(rows, dtype=np.float64).reshape(-1, 5)

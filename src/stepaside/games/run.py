@@ -96,14 +96,13 @@ class Run:
     @property
     def identities(self) -> Mapping[str, PlayerIdentity]:
         """Identity of each player that has a role, by name."""
-        roles = {role.value: role for role in Role}
         known: dict[str, PlayerIdentity] = getattr(
             self.settings, "identities", {}
         )
         return known or {
-            name: PlayerIdentity(name, roles[name], name)
+            name: PlayerIdentity(name, Role(name), name)
             for name in self.players
-            if name in roles
+            if name in [*Role]
         }
 
     @property

@@ -173,8 +173,7 @@ def _read_settings(game: str, entries: dict[str, Any], source: str) -> Any:
 
 
 def _load_complete_run(folder: Path) -> Run:
-    files = (CONFIGURATION, SUMMARY, TRAJECTORIES)
-    for name in files:
+    for name in (CONFIGURATION, SUMMARY, TRAJECTORIES):
         if not (folder / name).is_file():
             raise ConfigurationError(
                 f"run must be a folder with {CONFIGURATION}, {SUMMARY} and "
@@ -218,8 +217,8 @@ def read_record(
         )
     required = {f"{n}_{key}" for n in players for key in ("com", "torso")}
     missing = (required | {"times_s"}) - arrays.keys()
-    known = {f"{n}_{key}": (n, key) for n in players for key in COLUMNS}
-    unknown = arrays.keys() - known.keys() - {"times_s"}
+    known = {f"{n}_{key}" for n in players for key in COLUMNS}
+    unknown = arrays.keys() - known - {"times_s"}
     for names, what in ((missing, "has no"), (unknown, "holds an unknown")):
         if names:
             raise ConfigurationError(
@@ -227,12 +226,10 @@ def read_record(
                 f"{min(names)!r:.40}; arrays are times_s and, of each "
                 f"player, {', '.join(COLUMNS)}"
             )
-    rows: dict[str, dict[str, Any]] = {player: {} for player in players}
-    for array, values in arrays.items():
-        if array in known:
-            player, key = known[array]
-            rows[player][key] = values
-    tracks = {player: Trajectory(**own) for player, own in rows.items()}
+    tracks = {}
+    for n in players:
+        own: Any = {key: arrays.get(f"{n}_{key}") for key in COLUMNS}
+        tracks[n] = Trajectory(**own)
     return Run(
         name=name,
         settings=settings,

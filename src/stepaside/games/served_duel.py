@@ -45,8 +45,7 @@ class ClientSynchroniser(GameObserver):
         self._servers, self._tick = servers, tick
         self._lock_step = lock_step
         self._due = monotonic()
-        self.late = 0
-        self.unanswered = 0
+        self.late = self.unanswered = 0
 
     def gather(self, longest: float) -> None:
         """Wait up to a time in [s] until every robot has a client.
@@ -66,8 +65,7 @@ class ClientSynchroniser(GameObserver):
             self._exchange()
         for server in self._servers:
             server.begin()
-        self.late = 0
-        self.unanswered = 0
+        self.late = self.unanswered = 0
 
     def before(self, game: GameInPlay) -> None:
         """Exchange measurements and commands before the players act."""
@@ -100,7 +98,8 @@ class ClientSynchroniser(GameObserver):
             missing = [s for s in self._servers if not s.hear()]
             left = deadline - monotonic()
             if not missing:
-                if self._lock_step and not self._any_connected():
+                connected = any(server.connected for server in self._servers)
+                if self._lock_step and not connected:
                     sleep(self._tick)  # no client: do not spin
                 return
             if left <= 0.0:
@@ -110,9 +109,6 @@ class ClientSynchroniser(GameObserver):
         if self._lock_step:
             for server in missing:
                 server.drop(f"no answer for {ANSWER_TIMEOUT:g} s in lock step")
-
-    def _any_connected(self) -> bool:
-        return any(server.connected for server in self._servers)
 
 
 def serve_duel(
