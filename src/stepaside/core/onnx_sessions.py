@@ -1,5 +1,6 @@
 """Sessions of ONNX Runtime on one thread."""
 
+from collections.abc import Iterator
 from functools import lru_cache
 from glob import escape
 from pathlib import Path
@@ -11,13 +12,18 @@ from .extras import install_hint
 
 
 def open_network(path: Path) -> Any:
-    """Return the session of an ONNX file: the same until a file changes.
+    """Return the session of an ONNX file: the same until a file changes."""
+    return _open(str(path), *marks_of(path))
 
-    Its weights may lie in files beside it, named like it.
+
+def marks_of(path: Path) -> Iterator[tuple[int, int]]:
+    """Yield time and size of an ONNX file, and of those named like it.
+
+    Its weights may lie in such files.
     """
-    beside = sorted(path.parent.glob(f"{escape(path.stem)}*"))
-    stats = [file.stat() for file in beside]
-    return _open(str(path), *((s.st_mtime_ns, s.st_size) for s in stats))
+    for file in sorted(path.parent.glob(f"{escape(path.stem)}*")):
+        status = file.stat()
+        yield status.st_mtime_ns, status.st_size
 
 
 @lru_cache(maxsize=8)

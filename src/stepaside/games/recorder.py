@@ -1,7 +1,7 @@
 """Recorder of a game in physics: one trajectory per player."""
 
 from array import array
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -39,11 +39,11 @@ class PlayerRecord:
         found = player.sample(closely=self._closely)
         if not self._widths:
             self._widths = {name: np.size(own) for name, own in found.items()}
-        for own in found.values():
-            if isinstance(own, np.ndarray):
-                self._values.frombytes(own.tobytes())
-            else:
-                self._values.extend(own)
+        parts: list[Any] = [
+            own if isinstance(own, np.ndarray) else array("d", own)
+            for own in found.values()
+        ]
+        self._values.frombytes(b"".join(parts))
         if self._closely and isinstance(player, RobotPlayer):
             from .close_samples import strategy_numbers
 

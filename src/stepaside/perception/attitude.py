@@ -100,7 +100,7 @@ class AttitudeFilter:
     @property
     def roll(self) -> float:
         """Angle about the x axis of the torso, in [rad]."""
-        return atan2(self.up[1], self.up[2])
+        return atan2(self.up.item(1), self.up.item(2))
 
     @property
     def pitch(self) -> float:

@@ -106,6 +106,7 @@ class SimulatedRobot:
         self.pusher: PushApplier | None = None
         self.truth = truth or TrueRobotState(model, data, root.name)
         self._knows_pose, self._sites = knows_pose, data.site_xpos
+        self._positions, self._velocities = data.qpos, data.qvel  # views
         self._motion = {  # views
             "com": self.truth.position_com_in_world,
             "origin": self.truth.origin_torso_in_world,
@@ -166,12 +167,12 @@ class SimulatedRobot:
             return RobotState(
                 now, *(EMPTY,) * 4, first, percepts, place, players=seen
             )
-        data, sensors = self.world.data, self.world.sensordata
-        angles = data.qpos[self._qpos]
+        sensors = self.world.sensordata
+        angles = self._positions[self._qpos]
         forces = sensors[self._force_addresses]
         velocities = latest = None
         if self._dofs is not None:
-            velocities = data.qvel[self._dofs]
+            velocities = self._velocities[self._dofs]
         if (errors := self._errors) is None:
             gyro = sensors[self._gyro].copy()
             force = sensors[self._accelerometer].copy()
@@ -270,7 +271,7 @@ class SimulatedRobot:
 
     def motion(self) -> dict[str, Array]:
         """Return what :meth:`trajectory` computes a motion from, now."""
-        corners = self._sites[self._corner_sites]
+        corners = self._sites.take(self._corner_sites, axis=0)
         return self._motion | {"forces": self.foot_forces, "corners": corners}
 
     def trajectory(self, samples: dict[str, Array]) -> dict[str, Array]:

@@ -141,6 +141,7 @@ class World:
         # Velocities before the last physics step, whose sensors may lack.
         self._last_qvel, self._lacks_sensors = self.data.qvel.copy(), False
         self._qvel, self._option = self.data.qvel, self.model.opt  # views
+        self._sensors: NDArray[np.float64] = self.data.sensordata  # likewise
         self.ticks, self.time = 0, 0.0  # simulated time [s]
         self._waiting = self._robots = len(robots)
         roots = [
@@ -195,8 +196,7 @@ class World:
             for compute in SENSORS:
                 compute(model, data)
             self._qvel[:] = now
-        found: NDArray[np.float64] = data.sensordata
-        return found
+        return self._sensors
 
     def robots_touch(self) -> bool:
         """Return whether robots touch each other or an object."""

@@ -1,5 +1,6 @@
 """Learned legs of one robot: a body velocity in, joint targets out."""
 
+from copy import copy
 from pathlib import Path
 from typing import NamedTuple
 
@@ -7,6 +8,7 @@ import numpy as np
 
 from ...core.compilation import bound, compiled
 from ...core.errors import PolicyError
+from ...core.onnx_sessions import marks_of
 from ...core.poses import Array, Pose
 from ...perception.attitude import CALIBRATION, AttitudeFilter
 from ...perception.measurement import RobotState
@@ -109,9 +111,10 @@ class GravityFilter(AttitudeFilter):
 
     def take(self, gyro: Array, specific_force: Array) -> None:
         """Update the direction with one reading; see :meth:`update`."""
-        if self.knows:
+        if not self.knows:
+            self._time += self._duration
+        elif self.gains.item(0) == FIRST:
             self.gains[:] = CORRECTION, BIAS_CORRECTION
-        self._time += self._duration
         turn = self.turning.item(0)
         ahead, left = self._velocity[:2].tolist()
         known = -left * turn, ahead * turn
@@ -252,14 +255,28 @@ class PolicyLegs:
         runner.act(*self._network.evaluate(seen, runner.memory))
 
 
+CACHE_SIZE = 16  # contracts that are cached
+_read: dict[tuple[object, ...], tuple[PolicyContract, PolicyNetwork]] = {}
+
+
 def load_policy(
     legs: LegsSettings,
     description: RobotDescription,
 ) -> tuple[PolicyContract, PolicyNetwork]:
-    """Load a network with its contract for one robot."""
-    network = PolicyNetwork(Path(legs.network))
-    robot = RobotJoints.of(description)
-    return read_contract(network, robot, legs.contract).check(), network
+    """Load a network with its contract for one robot.
+
+    Both are read again when the files of the network change.
+    """
+    path, robot = Path(legs.network), RobotJoints.of(description)
+    key = path, *marks_of(path), legs.contract, str(robot)
+    if key not in _read:
+        network = PolicyNetwork(path)
+        read = read_contract(network, robot, legs.contract).check(), network
+        if len(_read) >= CACHE_SIZE:
+            _read.clear()
+        _read[key] = read
+    contract, network = _read[key]
+    return contract, copy(network)  # which binds arrays of its own
 
 
 def load_legs(

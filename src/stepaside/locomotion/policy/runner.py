@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Mapping, Sequence
+from functools import cached_property
 from math import cos, pi, sin
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -88,7 +89,6 @@ class PolicyNetwork:
                     f"legs: {port} of {path} must have one to three axes"
                 )
         self.draws = self._try()
-        self._bind()
 
     def _try(self) -> bool:
         """Evaluate once, and again to see whether outputs repeat."""
@@ -125,15 +125,16 @@ class PolicyNetwork:
 
         ``observation``: Shape (width of the input,).
         """
-        first, *states = self._given
-        first.reshape(-1)[:] = observation
+        binding, observed, states, found, after = self._bound
+        observed[:] = observation
         for state, before in zip(states, memory, strict=True):
             state[:] = before
-        self._session.run_with_iobinding(self._binding)
-        action: Array = self._found[0].astype(np.float64).ravel()
-        if not action @ action < 0.5 * LARGEST_ACTION**2:  # most often it is
+        self._session.run_with_iobinding(binding)
+        action: Array = found.astype(np.float64)
+        # most often it is
+        if not action.dot(action) < 0.5 * LARGEST_ACTION**2:
             self._check(action)
-        return action, tuple(state.copy() for state in self._found[1:])
+        return action, tuple([state.copy() for state in after])
 
     def _check(self, action: Array) -> None:
         """Refuse an action that is NaN, infinite or huge."""
@@ -145,20 +146,26 @@ class PolicyNetwork:
                 f"{LARGEST_ACTION:g}, got {action[at]:g}"
             )
 
-    def _bind(self) -> None:
-        """Bind arrays to the session; to pass them takes a third longer."""
+    @cached_property
+    def _bound(self) -> tuple[Any, ...]:
+        """Arrays bound to the session; to pass them takes a third longer.
+
+        The binding, observation and states before, action and states after.
+        """
         # Networks may leave sizes of outputs open: a run shows them.
         feed = {port.name: port.zeros() for port in self._inputs}
-        self._given = list(feed.values())
-        self._found = self._session.run(self._outputs, feed)
-        self._binding = binding = self._session.io_binding()
-        names = list(feed), self._outputs
-        binds = binding.bind_input, binding.bind_output
-        arrays = self._given, self._found
-        for bind, keys, own in zip(binds, names, arrays, strict=True):
-            for key, array in zip(keys, own, strict=True):
+        found = self._session.run(self._outputs, feed)
+        binding = self._session.io_binding()
+        for bind, names, arrays in (
+            (binding.bind_input, feed, feed.values()),
+            (binding.bind_output, self._outputs, found),
+        ):
+            for name, array in zip(names, arrays, strict=True):
                 place = array.__array_interface__["data"][0]
-                bind(key, "cpu", 0, array.dtype.type, array.shape, place)
+                bind(name, "cpu", 0, array.dtype.type, array.shape, place)
+        given, (action, *after) = list(feed.values()), found
+        flat = given[0].reshape(-1), given[1:], action.reshape(-1), after
+        return binding, *flat
 
 
 def _shape_of(node: Any) -> TensorShape:
