@@ -47,7 +47,7 @@ from .environment_settings import (
 Row = NDArray[np.float32]
 REACH = 2.0  # least half width of an image, in [m]
 BODY = 0.4  # length of a player in an image, in [m]
-PATIENCE = 0.2  # for a player that is kept from starting, in [s]
+RETRY = 0.2  # of a player that is kept from starting, in [s]
 # Values that describe one other player: 1 if there is one, cosine and sine of
 # its bearing, distance [v/k], its velocity ahead and to the left [v], 1 if it
 # is an opponent, 1 if it is a teammate.
@@ -203,7 +203,7 @@ class ParallelGames(ParallelEnv[str, Row, Any]):
         It does for one that walks, or has been kept from starting.
         """
         passed = known.time - self._known[name].time
-        kept = passed > PATIENCE - 1e-9 and self._held[name].intent.walks
+        kept = passed > RETRY - 1e-9 and self._held[name].intent.walks
         return known.moving or kept
 
     def step(
@@ -331,9 +331,6 @@ class ParallelDuel(ParallelGames):
     game is zero-sum. Capture and contact with an obstacle, in physics falls
     and contacts, terminate an episode; the time limit truncates it. ``info``
     holds "closest_m", "distance_m", "time_s" and "outcome", in one word.
-
-    Attributes:
-        settings: Settings of the environment.
     """
 
     metadata = ParallelGames.metadata | {"name": "stepaside_duel_v0"}
@@ -421,9 +418,6 @@ class ParallelGame(ParallelGames):
     Capture of one evader ends the episode, in physics also a fall or a
     contact; the time limit truncates it. Players that do not learn follow
     their own strategies.
-
-    Attributes:
-        settings: Settings of the game.
     """
 
     patience = 1.0

@@ -24,10 +24,8 @@ MIN_TURN = 0.5  # of a path to which a circle can be fitted, in [rad]
 def measure(run: Run, late: NDArray[np.bool_] | None = None) -> Summary:
     """Return the part of a summary that trajectories give.
 
-    Args:
-        run: The run; its summary is not used.
-        late: Samples of means and circles; those of the last third by
-            default. Shape (n,).
+    Means and circles are those of late samples, by default of the last
+    third, shape (n,). The summary of the run is not used.
     """
     late = last_third(run.times) if late is None else late
     pairs = {

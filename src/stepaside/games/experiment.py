@@ -69,12 +69,10 @@ def _parse_sources(words: tuple[str, ...]) -> dict[str, str]:
 def import_experiment(bag: Path, words: tuple[str, ...]) -> Run:
     """Read a bag as a run.
 
-    Samples are at the times of the first player's poses, as far as all
-    players have poses; those of the others are interpolated.
-
-    Args:
-        bag: Folder of a ROS 2 bag, or a file of one.
-        words: Players, as ``NAME=FRAME`` or ``NAME=/TOPIC``; at least two.
+    The bag is a folder of ROS 2, or a file of one; words are players, at
+    least two, as ``NAME=FRAME`` or ``NAME=/TOPIC``. Samples are at the times
+    of the first player's poses, as far as all players have poses; those of
+    the others are interpolated.
 
     Raises:
         ConfigurationError: If the bag lacks a frame or topic, the poses are

@@ -447,10 +447,8 @@ def check_senses(settings: GameSettings) -> None:
 def duel(**changes: Any) -> GameSettings:
     """Return the settings of a duel of a pursuer and an evader.
 
-    Args:
-        changes: Differences from a default duel of two NAO; see
-            :meth:`GameSettings.changed`. For example
-            ``duel(seed=2, evader="look-ahead")``.
+    Changes are differences from a default duel of two NAO, as in
+    :meth:`GameSettings.changed`: ``duel(seed=2, evader="look-ahead")``.
     """
     return _default_duel().changed(**changes)
 

@@ -182,13 +182,10 @@ class PhysicsWorld(World):
     ) -> None:
         """Build the world and place the players in it.
 
-        Args:
-            settings: Settings with the initial poses filled in.
-            rendered: Whether to render the world; cameras do so anyway.
-            remote: Whether the true line of sight is measured, by name of
-                each robot that other processes command by velocities.
-            strategies: Replace those of the settings, by name.
-            descriptions: Of robots, likewise.
+        The settings have all initial poses; strategies, and descriptions of
+        robots, replace theirs, by name. Cameras render the world anyway. Of
+        each robot that other processes command by velocities, ``remote`` says
+        by name whether the true line of sight is measured.
         """
         self._settings, self._remote = settings, remote
         self._setups = _setups_of(settings, descriptions)

@@ -129,12 +129,9 @@ def complete_play(
 
 
 def load_run(folder: AnyPath, game: str | None = None) -> Run:
-    """Read a run folder.
+    """Read a run folder, of any game or of a required one.
 
-    Args:
-        folder: The run folder.
-        game: Required game: "duel", "game", "walk", "play" or "experiment";
-            by default any.
+    Games are "duel", "game", "walk", "play" and "experiment".
 
     Raises:
         ConfigurationError: If the folder is not a valid run folder, of

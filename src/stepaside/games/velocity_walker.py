@@ -81,11 +81,7 @@ class CommandedVelocity:
 
 
 class VelocityWalker(RobotPlayer):
-    """Simulated robot that walks at velocities that another process commands.
-
-    Attributes:
-        description: Description of the robot.
-    """
+    """Simulated robot that walks at velocities of another process."""
 
     def __init__(
         self,
@@ -130,8 +126,7 @@ class VelocityWalker(RobotPlayer):
     @property
     def ready(self) -> bool:
         """Whether it can walk; with feedback it calibrates its gyro first."""
-        maneuvers = self.scheme.locomotion.maneuvers
-        return maneuvers is None or maneuvers.balance.ready
+        return self.maneuvers is None or self.maneuvers.balance.ready
 
     def tick(self) -> None:
         """Walk at the commanded velocity."""
