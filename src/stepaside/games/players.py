@@ -76,6 +76,7 @@ class RobotPlayer(Player):
         # Exact sightings are read when a decision is due.
         self._coasts = robot.sees_exactly and not scheme.decisions.body
         self._feels = scheme.locomotion.feels or not self._coasts
+        robot.world.measures |= self._feels
         self._measured: tuple[int, RobotState] | None = None
 
     @property

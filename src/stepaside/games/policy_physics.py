@@ -24,9 +24,7 @@ def policy_physics(
     if body.has_sensor_errors or not body.has_ideal_servos:
         return physics
     periods = {load_policy(*own)[0].period for own in legs}
-    if len(periods) != 1:
-        return physics
-    steps = periods.pop() / physics.time_step
-    if round(steps) < 1 or abs(steps - round(steps)) > 1e-6:
+    steps = min(periods) / physics.time_step
+    if len(periods) > 1 or steps < 0.5 or abs(steps - round(steps)) > 1e-6:
         return physics
     return replace(physics, tick=round(steps) * physics.time_step)

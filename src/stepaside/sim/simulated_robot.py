@@ -117,16 +117,20 @@ class SimulatedRobot:
         self._imu: StrapdownImu | None = None
         if generator is None or body == IDEAL and not integrates_imu:
             return
-        from .body_errors import SensorErrors, StrapdownImu
+        means = None
+        if body.has_sensor_errors:
+            from .body_errors import SensorErrors
 
-        unit = description.game.force_unit
-        self._errors = errors = SensorErrors(
-            body, generator, len(names), force_unit=unit
-        )
+            unit = description.game.force_unit
+            self._errors = SensorErrors(
+                body, generator, len(names), force_unit=unit
+            )
+            means = self._errors.exact[:9].reshape(3, 3)
         gyro = model.sensor(f"{name}/{description.sensors.gyro}").id
         site = int(model.sensor_objid[gyro])
         if integrates_imu and model.site_bodyid[site] == root.id:
-            means = errors.exact[:9].reshape(3, 3)
+            from .body_errors import StrapdownImu
+
             self._imu = StrapdownImu(model, data, root.id, site, means)
 
     def _find_sensors(self, description: RobotDescription) -> None:
@@ -173,7 +177,9 @@ class SimulatedRobot:
         velocities = latest = None
         if self._dofs is not None:
             velocities = self._velocities[self._dofs]
-        if (errors := self._errors) is None:
+        if (errors := self._errors) is None and self._imu is not None:
+            gyro, force, latest = self._imu.read().copy()
+        elif errors is None:
             gyro = sensors[self._gyro].copy()
             force = sensors[self._accelerometer].copy()
         else:
@@ -187,18 +193,9 @@ class SimulatedRobot:
             latest = None if self._imu is None else now_turns
             if velocities is not None:
                 velocities = errors.velocities(velocities, angles, now)
+        felt = angles, gyro, force, forces
         return RobotState(
-            now,
-            angles,
-            gyro,
-            force,
-            forces,
-            first,
-            percepts,
-            place,
-            velocities,
-            seen,
-            latest,
+            now, *felt, first, percepts, place, velocities, seen, latest
         )
 
     def _pose_in_room(self) -> Pose:

@@ -137,6 +137,7 @@ class World:
         )
         self.data = mujoco.MjData(self.model)
         self.before_step: list[Callable[[float], None]] = []
+        self.measures = False  # whether sensors are read at every tick
         self.servos: Servos | None = None  # with errors, of the last robot
         # Velocities before the last physics step, whose sensors may lack.
         self._last_qvel, self._lacks_sensors = self.data.qvel.copy(), False
@@ -176,10 +177,12 @@ class World:
         for step in range(0 if calls else last, last + 1):
             for call in calls:
                 call(self.time + step * self.physics.time_step)
-            if step == last:
+            if step == last and self.measures:
+                self._option.disableflags = 0
+            elif step == last:
                 self._last_qvel[:] = self._qvel
             mujoco.mj_step(model, data)
-        self._option.disableflags, self._lacks_sensors = 0, True
+        self._option.disableflags, self._lacks_sensors = 0, not self.measures
         self.ticks += 1
         self.time = self.ticks * self.physics.tick
 
