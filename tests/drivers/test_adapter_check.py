@@ -1,7 +1,7 @@
 """Test that the check of a robot finds each mistake of an adapter."""
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from math import cos, degrees, inf, nan, sin
 from pathlib import Path
 from threading import Event
@@ -22,6 +22,7 @@ from stepaside.drivers.robot import (
 )
 from stepaside.drivers.robot_check import AdapterFinding, RobotCheck
 from stepaside.perception.measurement import RobotState, Sighting
+from stored_values import compare_stored, content_of
 
 Change = Callable[[RobotState], RobotState | None]
 
@@ -117,7 +118,19 @@ def checked(robot: Any, *, dry_run: bool = False) -> dict[str, AdapterFinding]:
     )
     check.run()
     assert check.passes == all(f.verdict != "fail" for f in check.findings)
+    FOUND.extend(check.findings)
     return {finding.name: finding for finding in check.findings}
+
+
+FOUND: list[AdapterFinding] = []  # by all checks of a test
+
+
+@pytest.fixture(autouse=True)
+def findings_are_as_stored(request: pytest.FixtureRequest) -> Iterator[None]:
+    """Compare all of them, whatever the test looks at."""
+    FOUND.clear()
+    yield
+    compare_stored("plays.json", request.node.name, content_of(FOUND))
 
 
 def failed(found: dict[str, AdapterFinding]) -> dict[str, str]:
@@ -465,3 +478,50 @@ def test_whether_the_robot_keeps_its_targets_is_compared() -> None:
     cautious.timeout = 0.5
     finding = checked(cautious)["without commands"]
     assert finding.verdict == "pass" and "may be False" in finding.text
+
+
+def off_by(what: str, factor: float) -> Any:
+    """Robot with a unit that is wrong by a factor."""
+    robot: Any = KinematicRobot()
+    start = robot.time
+    if what == "pose":
+        robot.change = scaled(what, factor)
+    elif what == "clock":
+        robot.change = lambda r: r._replace(
+            time=start + factor * (r.time - start)
+        )
+    elif what == "drift":
+        robot.change = lambda r: r._replace(
+            pose=r.pose._replace(x=r.pose.x + factor * (r.time - start))
+        )
+    else:
+        robot = HangingRobot()
+        robot.change = scaled(what.replace("targets", "tilt"), factor)
+    if what == "targets":
+        robot, take = HangingRobot(), HangingRobot.command
+        robot.command = lambda told: take(
+            robot,
+            JointTargets(
+                robot.start + factor * (told.angles - robot.start), *told[1:]
+            ),
+        )
+    return robot
+
+
+@pytest.mark.parametrize(
+    ("what", "factors"),
+    [
+        ("clock", (0.88, 0.92, 1.08, 1.12)),
+        ("drift", (0.04, 0.06)),
+        ("pose", (0.07, 0.25, 0.35, 1.9, 2.1)),
+        ("targets", (0.25, 0.35, 1.9, 2.1)),
+        ("gyro", (0.25, 0.35, 1.9, 2.1)),
+        ("joint_velocities", (0.25, 0.35, 1.9, 2.1)),
+        ("accelerometer", (0.8, 0.85, 1.15, 1.19)),
+    ],
+)
+def test_a_unit_that_is_slightly_wrong_is_judged_as_stored(
+    what: str, factors: tuple[float, ...]
+) -> None:
+    for factor in factors:
+        assert checked(off_by(what, factor))

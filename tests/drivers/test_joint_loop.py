@@ -22,7 +22,6 @@ from stepaside.core.errors import (
     ConfigurationError,
     ModelError,
     ReachError,
-    StrategyError,
 )
 from stepaside.drivers.joint_motion import (
     HOT,
@@ -34,7 +33,6 @@ from stepaside.drivers.joint_motion import (
 from stepaside.drivers.method_thread import SessionLost
 from stepaside.drivers.safety import SafetyState
 from stepaside.drivers.scheme_factory import policy_gains
-from stepaside.locomotion.locomotion import Phase
 from stepaside.perception.images import LidarScan
 from stepaside.perception.measurement import Sighting
 from stepaside.robots.description import load_robot
@@ -136,17 +134,6 @@ def test_targets_stay_in_range_and_within_the_speed_of_their_motor() -> None:
     assert np.all(speeds <= MOTORS.speed + 1e-9)
 
 
-def test_gains_of_control_hold_only_while_it_walks() -> None:
-    """They are soft, so that its targets are not limited."""
-    game = walking(gains=(np.full(3, 7.0), np.full(3, 0.5)))
-    before, after = game.session.sent[-3], game.session.sent[-1]
-    assert before is not None and after is not None
-    assert before.stiffness[MOTORS.order].tolist() == [100.0, 80.0, 10.0]
-    assert after.stiffness[MOTORS.order].tolist() == [7.0, 7.0, 7.0]
-    game.play(1, np.array([5.0, 5.0, 5.0]))
-    assert game.sent.angles[MOTORS.order].tolist() == [5.0] * 3
-
-
 def test_a_hot_joint_has_half_its_torque() -> None:
     def share(degrees: float, heat: float = 0.0) -> float:
         hot = status(temperature=np.full(4, degrees), heat=np.full(4, heat))
@@ -170,31 +157,6 @@ def test_a_robot_that_stands_by_itself_is_stiff_at_once_and_given_back() -> (
     game.schemes[-1].fails = ReachError("too short")
     game.play(3)
     assert game.session.sent.count(None) == 1
-
-
-@pytest.mark.parametrize(
-    ("changes", "word"),
-    [
-        ({"foot_forces": np.zeros(8)}, "are lifted"),
-        ({"status": status(charge=0.02)}, "battery is at 2 %"),
-        ({"status": status(current=np.array([0, 1.2, 0, 0]))}, "current"),
-        ({"status": status(bumped=True)}, "bumper"),
-        ({"accelerometer": np.zeros(3)}, "accelerometer reads 0.0"),
-        ({"accelerometer": np.array([0, 0, -9.8])}, "tilt of 180 deg"),
-        ({"hindrance": "tired"}, "tired"),
-        ({"status": status(heat=np.array([0, 2, 0, 0]))}, "reports heat"),
-        ({"status": status(temperature=np.full(4, 82.0))}, "has 82 degC"),
-    ],
-)
-def test_a_walk_ends_when_a_sensor_says_that_it_must(
-    changes: dict[str, Any], word: str
-) -> None:
-    game = walking()
-    game.session.changes |= changes
-    for _ in range(40):
-        if game.play(1).state is not SafetyState.WALKING:
-            break
-    assert game.state is SafetyState.STOPPING and word in game.reason
 
 
 @pytest.mark.parametrize("what", ["accelerometer", "all"])
@@ -225,18 +187,6 @@ def test_a_walk_goes_on_where_all_is_well(changes: dict[str, Any]) -> None:
     game = walking()
     game.session.changes |= changes
     assert game.play(60).state is SafetyState.WALKING
-
-
-@pytest.mark.parametrize(
-    "changes", [{"tilt": (0.7, 0.0)}, {"gyro": np.array([0.0, -5.0, 0.0])}]
-)
-def test_falling_goes_limp_at_once(changes: dict[str, Any]) -> None:
-    game = walking()
-    game.session.changes |= changes
-    game.play(1)
-    assert game.state is SafetyState.LIMP and "falls" in game.reason
-    game.play(40)
-    assert game.session.sent[-1] is None
 
 
 def lost(game: Game, said: str) -> None:
@@ -307,12 +257,6 @@ def test_implausible_reports_are_refused_and_end_the_session(
     assert game.loop.refused >= 4
 
 
-def test_foot_forces_are_needed_by_the_papers_walk() -> None:
-    game = walking(needs_forces=True)
-    game.session.changes["foot_forces"] = np.full(8, nan)
-    lost(game, "foot_forces are needed by the paper's walk")
-
-
 def test_one_damaged_report_is_passed_over() -> None:
     game = walking()
     game.session.once = {"gyro": (nan, 0.0, 0.0)}
@@ -344,21 +288,6 @@ def test_times_that_jump_end_the_session(jump: float, said: str) -> None:
     lost(game, said)
 
 
-def test_reports_that_fall_behind_the_clock_end_the_session() -> None:
-    game = walking()
-    listen = game.session.listen
-
-    def late(patience: float) -> Any:
-        game.session.now += 0.5 * TICK
-        return listen(patience)
-
-    game.session.listen = late  # type: ignore[method-assign]
-    game.play(30)
-    with pytest.raises(SessionLost, match="its times are 0.5.. s behind"):
-        game.play(40)
-    assert game.state is SafetyState.LIMP
-
-
 def test_a_control_that_was_away_finds_its_robot_limp() -> None:
     game = walking()
     game.session.now += 1.0
@@ -368,25 +297,6 @@ def test_a_control_that_was_away_finds_its_robot_limp() -> None:
     assert game.state is SafetyState.LIMP
     assert "no report was read for 1.0" in game.reason
     assert game.sent.stiffness[1] < 0.4 * 80.0
-
-
-@pytest.mark.parametrize("kind", ["footing", "strategy", "falling", "nan"])
-def test_control_that_gives_up_lets_the_robot_go_limp(kind: str) -> None:
-    game = walking()
-    scheme = game.schemes[0]
-    if kind == "footing":
-        scheme.fails = ReachError("a leg is too short")
-    elif kind == "strategy":
-        scheme.fails = StrategyError("KeyError: 'x'")
-    elif kind == "nan":
-        scheme.wanted = np.full(3, nan)
-    else:
-        scheme.phase = Phase.FALLEN
-    tick = game.play(1)
-    assert tick.state is SafetyState.LIMP
-    said = {"footing": "too short", "strategy": "'x'", "falling": "a fall"}
-    assert said.get(kind, "NaN or inf") in tick.reason
-    assert np.isfinite(game.sent.angles).all()
 
 
 def test_a_robot_rests_in_its_crouch_before_it_goes_limp() -> None:
@@ -405,20 +315,6 @@ def test_a_robot_rests_in_its_crouch_before_it_goes_limp() -> None:
     assert game.schemes[1].decisions.strategy is STRATEGY
 
 
-def test_learned_legs_settle_before_a_robot_rests() -> None:
-    """A second after they were told to stand, where steps end at once."""
-    game = walking()
-    game.schemes[0].maneuvers = None
-    game.press()
-    game.play(1)
-    ticks = 1
-    while game.state is SafetyState.STOPPING:
-        game.play(1)
-        ticks += 1
-    assert ticks * TICK == pytest.approx(1.0, abs=3 * TICK)
-    assert game.reason == "stopped: chest button"
-
-
 def test_a_robot_that_was_lifted_stands_and_walks_anew_by_the_button() -> None:
     game = walking()
     game.session.changes["foot_forces"] = np.zeros(8)
@@ -431,12 +327,6 @@ def test_a_robot_that_was_lifted_stands_and_walks_anew_by_the_button() -> None:
     assert game.state is SafetyState.WALKING
     times = [read.time for read in game.schemes[1].read]
     np.testing.assert_allclose(times, [0.0, TICK], atol=1e-9)
-
-
-def test_closing_leaves_the_robot_limp() -> None:
-    game = walking()
-    game.loop.close()
-    assert game.session.closed and game.session.sent[-1] is None
 
 
 def test_a_broken_session_ends_and_is_closed() -> None:
@@ -475,17 +365,6 @@ def test_a_robot_without_a_button_is_given_up_once_it_is_limp() -> None:
     game.play(1)
     assert game.loop.given_up.startswith("the robot was released: ")
     assert game.loop.given_up.endswith("why not")
-
-
-def test_leaving_ends_with_a_limp_robot() -> None:
-    game = walking()
-    game.loop.leave("asked")
-    assert game.play(1).state is SafetyState.STOPPING
-    for _ in range(200):
-        game.play(1)
-        if game.loop.ended:
-            break
-    assert game.loop.ended and game.state is SafetyState.LIMP
 
 
 class Described(FakeRobot):

@@ -116,49 +116,6 @@ def test_the_robot_is_led_to_the_template_by_the_ramp() -> None:
     assert steps.max(axis=0) == pytest.approx((0.025, 0.0, 0.08), rel=0.3)
 
 
-@pytest.mark.parametrize(
-    "sick",
-    [
-        report(PERIOD * 20, sighting=None),
-        report(PERIOD * 20, sighting=Sighting(0.1, 0.0, 1.0)),
-        report(PERIOD * 20, pose=Pose(0.0, float("nan"), 0.0)),
-        report(PERIOD * 40),
-        report(0.0),
-        report(PERIOD * 20, hindrance="a second commander"),
-    ],
-    ids="none stale nan future past hindered".split(),
-)
-def test_whatever_is_amiss_asks_for_rest_at_once(sick: RobotState) -> None:
-    robot = FakeWalker([*REPORTS[:20], sick])
-    ticks = played(robot, 21)
-    assert robot.asked[-2].forward == pytest.approx(0.1)
-    assert robot.asked[-1] == REST
-    assert ticks[-1].state is DrivingState.WAITING and ticks[-1].reason
-
-
-def test_a_robot_that_falls_silent_is_asked_to_rest_and_goes_on_later() -> (
-    None
-):
-    later = [report(PERIOD * i) for i in range(28, 60)]
-    robot = FakeWalker([*REPORTS[:20], *8 * [None], *later])
-    ticks = played(robot, 60)
-    assert robot.asked[20] == robot.asked[19]  # borne for a while
-    assert robot.asked[27] == REST
-    assert ticks[27].reason.startswith("no odometry for")
-    assert ticks[-1].state is DrivingState.WALKING
-
-
-def test_a_robot_that_stays_silent_ends_the_session() -> None:
-    robot = FakeWalker(REPORTS[:20])
-    playing = playing_of(robot)
-    with pytest.raises(
-        SessionLost, match="no new report from the robot for 10 s"
-    ):
-        for _ in range(400):
-            playing.tick()
-    assert robot.asked[-1] == REST
-
-
 def test_the_clock_of_a_simulator_may_pause_for_any_time() -> None:
     later = [report(PERIOD * i) for i in range(20, 40)]
     robot = FakeWalker([*REPORTS[:20], *400 * [None], *later])
@@ -187,21 +144,6 @@ def test_the_status_line_has_the_time_since_the_first_report() -> None:
     for tick in played(FakeWalker(REPORTS), 3):
         line.note(tick._replace(time=1.7e9 + tick.time))
     assert stream.getvalue().startswith("    0.0 s ")
-
-
-def test_leaving_slows_down_and_then_rests() -> None:
-    robot = FakeWalker(REPORTS)
-    playing = playing_of(robot)
-    for _ in range(20):
-        playing.tick()
-    playing.leave("asked")
-    states = [playing.tick().state for _ in range(10)]
-    assert (
-        states[0] is DrivingState.STOPPING
-        and states[-1] is DrivingState.RESTING
-    )
-    forward = [v.forward for v in robot.asked[20:]]
-    assert forward == sorted(forward, reverse=True) and forward[-1] == 0.0
 
 
 def test_a_strategy_that_fails_ends_in_rest() -> None:

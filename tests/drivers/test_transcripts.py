@@ -1,0 +1,203 @@
+"""Test that plays of ``tests/data/plays.toml`` go as those that are stored."""
+
+import tomllib
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import pytest
+
+from joint_fakes import STANCE, TICK, FakeRobot, FakeSession, Game, status
+from stepaside.core.errors import ReachError, StrategyError
+from stepaside.drivers.method_thread import SessionLost
+from stepaside.drivers.play_log import PlayTick
+from stepaside.drivers.robot import VelocityLimits
+from stepaside.drivers.velocity_loop import TemplateController, VelocityLoop
+from stepaside.locomotion.locomotion import Phase
+from stepaside.perception.images import LidarScan
+from stepaside.perception.measurement import Sighting
+from stepaside.planning import GaitSettings
+from stepaside.strategies import Pursuit
+from stored_values import DATA, compare_stored, summed
+
+from velocity_fakes import PERIOD, FakeWalker, report  # isort: skip
+
+PLAYS = tomllib.loads((DATA / "plays.toml").read_text())
+LEAVING = 150  # ticks after the begin of a walk
+
+
+class Script(dict[str, Any]):
+    """Entries of a play at a share of its time, from 0 to 1."""
+
+    share = 0.0
+
+    def at(self, name: str, default: Any = 0.0) -> Any:
+        """Return a value between two, as an array if they are."""
+        low, high = self.get(name, (default, default))
+        value = np.array(low) + self.share * np.subtract(high, low)
+        return value if value.ndim else float(value)
+
+    def within(self, name: str) -> bool:
+        """Return whether this is the time of an entry."""
+        low, high = self.get(name, (2.0, 2.0))
+        return bool(low < self.share < high)
+
+    def after(self, name: str) -> bool:
+        """Return whether an entry has begun."""
+        return bool(self.share > self.get(name, 2.0))
+
+    def parts(self, prefix: str, names: Any) -> dict[str, Any]:
+        """Return the values of some fields."""
+        known = {name: prefix + name for name in names}
+        return {n: self.at(path) for n, path in known.items() if path in self}
+
+    def sighting(self, now: float) -> Sighting | None:
+        """Return the sighting of a report."""
+        if self.after("seen") or self.within("unseen"):
+            return None
+        taken = now - self.at("age")
+        return Sighting(
+            taken, self.at("bearing", 0.4), self.at("distance", 0.7)
+        )
+
+
+def reported(script: Script, game: Game) -> None:
+    """Change the next report, and what is beside it."""
+    session, scheme = game.session, game.schemes[-1]
+    now = session.time + TICK
+    told = script.parts("status.", status()._fields)
+    for name in ("stiffness", "temperature", "heat", "current"):
+        told = told | {name: np.full(4, told[name])} if name in told else told
+    told["pressed"] = (script.share % 0.2 < 0.04) and "pressed" in script
+    session.changes |= script.parts(
+        "", ("tilt", "gyro", "accelerometer", "foot_forces")
+    )
+    session.changes |= script.parts("", ("joint_velocities",)) | {
+        "status": status(**told) if script.get("button", True) else None,
+        "sighting": script.sighting(now),
+        "hindrance": "tired" * script.within("hindrance"),
+    }
+    if "scan" in script:
+        taken = LidarScan(now - script.at("scan"), np.zeros((0, 3)))
+        session.changes["percepts"] = (taken,)
+    if "away" in script:
+        session.angles = session.angles + script.at("away") ** 2
+    if script.after("nan_forces"):
+        session.changes["foot_forces"] = np.full(8, np.nan)
+    session.now += script.at("gap") + script.at("now")
+    session.time += script.at("gap")
+    session.hold = "released" * script.within("hold")
+    if "learned" in script:
+        scheme.maneuvers = None
+    if script.after("fall"):
+        scheme.phase = Phase.FALLEN
+    slips = ReachError("too short") if script.after("slip") else None
+    scheme.fails = StrategyError("why") if script.after("doubt") else slips
+
+
+def of_ticks(ticks: list[PlayTick]) -> Iterator[str | float]:
+    """Yield when states change and how, and sums over all ticks."""
+    before: Any = None
+    for number, tick in enumerate(ticks):
+        if tick.state is not before:
+            yield from (float(number), tick.words)
+        before = tick.state
+    rows = [(t.time, t.sighting, t.row, t.walked) for t in ticks]
+    yield from [*summed(rows)][1:]
+
+
+def of_joints(script: Script) -> Iterator[str | float]:
+    """Play until the robot is released; yield changes, then all commands."""
+    how = script.get("how", {})
+    traits = {k: v for k, v in how.items() if hasattr(FakeRobot, k)}
+    options = {k: np.array(v) for k, v in how.items() if k not in traits}
+    game = Game(FakeSession(**traits), **options)
+    session, ticks, shown, given_up = game.session, [], [], ""
+    session.robot.show = lambda state, *, sees: shown.append((state, sees))
+    for i in range(-70, 1200):
+        script.share = min(max(0.01 * i, 0.0), 1.0)
+        reported(script, game)
+        if (told := session.changes["status"]) is not None and i == -10:
+            session.changes["status"] = told._replace(pressed=True)
+        if i == script.get("leaves", LEAVING):
+            game.loop.leave("asked")
+        wanted = STANCE + 0.3 * np.sin(0.2 * i) * (i > 0)
+        wanted[2] = np.nan if script.after("nan") else wanted[2]
+        try:
+            ticks.append(game.play(1, wanted))
+        except SessionLost as error:
+            yield str(error)
+            break
+        given_up = given_up or game.loop.given_up
+        if game.loop.ended:
+            break
+    game.loop.close()
+    yield from (given_up, float(session.closed), float(len(session.sent)))
+    yield str([(state.value, sees) for state, sees in shown])
+    yield from of_ticks(ticks)
+    for each in session.sent, [s.read for s in game.schemes]:
+        yield from [*summed(each)][1:]
+
+
+class Walker(FakeWalker):
+    """Robot with a switch."""
+
+    hold = ""
+
+    def released(self) -> str:
+        """Return the reason of the switch."""
+        return self.hold
+
+
+def of_velocities(script: Script) -> Iterator[str | float]:
+    """Play for a time; yield changes, then all commands."""
+
+    def reports() -> Iterator[Any]:
+        for i in range(400):
+            time, now = PERIOD * i + script.at("time"), PERIOD * i
+            x = script.at("x") * script.share + 1e-6 * (now % 1.0)
+            pose = {"x": x if "x" not in script or script["x"][1] else 0.0}
+            pose["theta"] = script.at("theta") * script.share
+            told = report(time)
+            yield (
+                None
+                if script.within("silent")
+                else told._replace(
+                    pose=told.pose._replace(**pose),
+                    sighting=script.sighting(time),
+                    hindrance="tired" * script.within("hindrance"),
+                )
+            )
+
+    robot, ticks, paced = Walker(reports()), [], script.get("paced", True)
+    loop = VelocityLoop(
+        robot,  # type: ignore[arg-type]
+        lambda: TemplateController(Pursuit(), GaitSettings()),
+        VelocityLimits(),
+        paced=paced,
+        clock=robot.clock,
+        pause=robot.pause,
+    )
+    for i in range(400):
+        script.share = min(max(0.01 * (i - 20), 0.0), 1.0)
+        robot.hold = "released" * script.within("hold")
+        if script.after("leaves"):
+            loop.leave("asked")
+        try:
+            ticks.append(loop.tick())
+        except SessionLost as error:
+            yield str(error)
+            break
+        if loop.ended:
+            break
+    yield from of_ticks(ticks)
+    yield from [*summed(robot.asked)][1:]
+
+
+@pytest.mark.parametrize(
+    ("kind", "name"), [(kind, n) for kind, each in PLAYS.items() for n in each]
+)
+def test_a_play_goes_as_stored(kind: str, name: str) -> None:
+    play = of_joints if kind == "joints" else of_velocities
+    found = play(Script(PLAYS[kind][name]))
+    compare_stored("plays.json", f"{kind}, {name}", found, 1e-5)
