@@ -11,11 +11,11 @@ from joint_fakes import STANCE, TICK, FakeRobot, FakeSession, Game, status
 from stepaside.core.errors import ReachError, StrategyError
 from stepaside.drivers.method_thread import SessionLost
 from stepaside.drivers.play_log import PlayTick
-from stepaside.drivers.robot import VelocityLimits
+from stepaside.drivers.robot import CameraImage, VelocityLimits
 from stepaside.drivers.velocity_loop import TemplateController, VelocityLoop
 from stepaside.locomotion.locomotion import Phase
 from stepaside.perception.images import LidarScan
-from stepaside.perception.measurement import Sighting
+from stepaside.perception.measurement import RobotState, Sighting
 from stepaside.planning import GaitSettings
 from stepaside.strategies import Pursuit
 from stored_values import DATA, compare_stored, summed
@@ -106,13 +106,50 @@ def of_ticks(ticks: list[PlayTick]) -> Iterator[str | float]:
     yield from [*summed(rows)][1:]
 
 
+class Eyes:
+    """Camera with an image at every other tick; at first it has none."""
+
+    def __init__(self, script: Script) -> None:
+        self.script, self.taken = script, 0
+        if "no_camera" in script:
+            raise SessionLost("no camera")
+
+    @property
+    def hindrance(self) -> str:
+        """Why there is no sighting."""
+        return "" if self.script.share else "no image yet"
+
+    def take(self, now: float) -> CameraImage | None:
+        """Return a new image."""
+        self.taken += 1
+        pixels = np.full((2, 4, 3), self.taken % 99, np.uint8)
+        image = CameraImage(now - 0.02, pixels, 5.0, 7.0)
+        return image if self.taken % 2 else None
+
+    def see(self, report: RobotState) -> RobotState:
+        """Replace the sighting."""
+        return report._replace(sighting=Sighting(report.time, 0.1, 0.9))
+
+    def close(self) -> None:
+        """Note it."""
+        self.script["closed"] = True
+
+
 def of_joints(script: Script) -> Iterator[str | float]:
     """Play until the robot is released; yield changes, then all commands."""
     how = script.get("how", {})
     traits = {k: v for k, v in how.items() if hasattr(FakeRobot, k)}
-    options = {k: np.array(v) for k, v in how.items() if k not in traits}
-    game = Game(FakeSession(**traits), **options)
-    session, ticks, shown, given_up = game.session, [], [], ""
+    options: dict[str, Any] = {
+        k: np.array(v) for k, v in how.items() if k not in traits
+    }
+    session, ticks, shown, given_up = FakeSession(**traits), [], [], ""
+    if "eyes" in script:
+        options["open_eyes"] = lambda robot: Eyes(script)
+    try:
+        game = Game(session, **options)
+    except SessionLost as error:
+        yield from (str(error), float(session.closed))
+        return
     session.robot.show = lambda state, *, sees: shown.append((state, sees))
     for i in range(-70, 1200):
         script.share = min(max(0.01 * i, 0.0), 1.0)
@@ -132,7 +169,7 @@ def of_joints(script: Script) -> Iterator[str | float]:
         if game.loop.ended:
             break
     game.loop.close()
-    yield from (given_up, float(session.closed), float(len(session.sent)))
+    yield from (given_up, float(session.closed), str(script.get("closed")))
     yield str([(state.value, sees) for state, sees in shown])
     yield from of_ticks(ticks)
     for each in session.sent, [s.read for s in game.schemes]:
@@ -142,7 +179,11 @@ def of_joints(script: Script) -> Iterator[str | float]:
 class Walker(FakeWalker):
     """Robot with a switch."""
 
-    hold = ""
+    hold, closed = "", False
+
+    def close(self) -> None:
+        """Note it."""
+        self.closed = True
 
     def released(self) -> str:
         """Return the reason of the switch."""
@@ -169,12 +210,19 @@ def of_velocities(script: Script) -> Iterator[str | float]:
                 )
             )
 
-    robot, ticks, paced = Walker(reports()), [], script.get("paced", True)
+    robot, ticks, controllers = Walker(reports()), [], []
+
+    def controller() -> TemplateController:
+        controllers.append(1.0)
+        return TemplateController(Pursuit(), GaitSettings())
+
+    eyes: Any = Eyes(script) if "eyes" in script else None
     loop = VelocityLoop(
         robot,  # type: ignore[arg-type]
-        lambda: TemplateController(Pursuit(), GaitSettings()),
+        controller,
         VelocityLimits(),
-        paced=paced,
+        paced=script.get("paced", True),
+        eyes=eyes,
         clock=robot.clock,
         pause=robot.pause,
     )
@@ -190,6 +238,8 @@ def of_velocities(script: Script) -> Iterator[str | float]:
             break
         if loop.ended:
             break
+    loop.close()
+    yield from (sum(controllers), str((robot.closed, script.get("closed"))))
     yield from of_ticks(ticks)
     yield from [*summed(robot.asked)][1:]
 
