@@ -78,7 +78,7 @@ def of_watch(ticks: int, **how: Any) -> Iterator[str | float]:
     """Watch for some time; yield sums over each second."""
     detector, tall = FakeDetector(), how.get("people", False)
     eyes = build_perception(NAO, HEAD, detector, tick=TICK, **how)  # type: ignore[arg-type]
-    joints, seen = np.zeros(JOINTS), []
+    joints, seen = np.zeros(JOINTS), list[Any]()
     for number in range(ticks):
         now, percepts = number * TICK, list[Any]()
         if eyes.body is not None and now > 0.5:  # a tick ago
@@ -107,7 +107,7 @@ def of_watch(ticks: int, **how: Any) -> Iterator[str | float]:
         for track in eyes.tracker.tracks:
             seen += [float(track.number), track.position_at(now), track.drift]
             seen += [track.velocity, float(track.confirmed), track.height]
-        seen += [report.azimuths for report in eyes.reports]
+        seen += [(each.azimuths, each.depth) for each in eyes.reports]
         if number % 60 == 59:
             yield from [*summed(seen)][1:]
             seen = []
