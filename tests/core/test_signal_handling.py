@@ -7,6 +7,7 @@ import pytest
 
 from stepaside.core.signal_handling import (
     DeferredInterrupt,
+    interrupted_status,
     interruptible,
 )
 from stepaside.games.game import Outcome
@@ -21,8 +22,12 @@ SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 def test_every_signal_raises_keyboard_interrupt(
     number: signal.Signals,
 ) -> None:
-    with interruptible(), pytest.raises(KeyboardInterrupt):
-        signal.raise_signal(number)
+    """The first one gives the status of the command."""
+    with interruptible():
+        for each in (number, signal.SIGINT):
+            with pytest.raises(KeyboardInterrupt):
+                signal.raise_signal(each)
+        assert interrupted_status() == 128 + number
 
 
 @pytest.mark.parametrize("number", SIGNALS)
@@ -54,6 +59,9 @@ def test_the_second_interrupt_is_not_deferred() -> None:
 def test_a_pending_interrupt_is_raised_once_at_the_end() -> None:
     with pytest.raises(KeyboardInterrupt), DeferredInterrupt():
         signal.raise_signal(signal.SIGINT)
+    with pytest.raises(ValueError, match="own"), DeferredInterrupt():
+        signal.raise_signal(signal.SIGINT)
+        raise ValueError("own")
     with DeferredInterrupt() as deferred:
         deferred.let_through()
 

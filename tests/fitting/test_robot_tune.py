@@ -61,6 +61,19 @@ def walked(
     )
 
 
+@pytest.mark.parametrize(
+    "limit",
+    [
+        *({"tilt": 10.0, "lean": 2.0}, {"strays": 0.06}, {"speed": 0.85}),
+        *({"speed": 1.15}, {"turning": 0.85}, {"turning": 1.15}),
+    ],
+)
+def test_a_steady_walk_meets_each_criterion(limit: dict[str, float]) -> None:
+    exact = walked(PATHS[2], 0.0)
+    assert exact.unsteadiness == 0.0
+    assert exact._replace(**limit).unsteadiness == pytest.approx(1.0)  # type: ignore[arg-type]
+
+
 def search(
     own: RobotDescription,
     monkeypatch: pytest.MonkeyPatch,

@@ -84,6 +84,14 @@ def test_com_is_over_the_foot_that_bears_the_weight() -> None:
     np.testing.assert_allclose(state.com, [1.03, 2.02], atol=1e-12)
 
 
+@pytest.mark.parametrize("tilt", [(0.71, 0.0), (0.0, -0.71), (-0.69, 0.69)])
+def test_a_robot_that_leans_beyond_40_degrees_has_fallen(
+    tilt: tuple[float, float],
+) -> None:
+    state = see(estimator(), measured())._replace(tilt=tilt)
+    assert state.has_fallen == (max(np.abs(tilt)) > 0.7)
+
+
 def test_heading_of_the_torso_is_that_over_the_foot_that_stands() -> None:
     """It stands turned by 0.2 rad; the right foot has slipped by 0.1 rad."""
     feet = FEET._replace(right_foot=(1.0, 1.9, 0.0, 0.1))

@@ -8,6 +8,7 @@ import pytest
 
 from stepaside.core.poses import Array
 from stepaside.core.rotations import rotation
+from stepaside.robots.com_heights import search_heights
 from stepaside.robots.description import load_robot
 from stepaside.robots.leg_kinematics import ROWS, BodyReference, LegKinematics
 
@@ -174,6 +175,16 @@ def test_the_range_of_heights_moves_nothing() -> None:
     assert lowest < STANCE.com[2] < highest
     np.testing.assert_array_equal(kinematics.joint_targets, before)
     np.testing.assert_allclose(kinematics.track(STANCE), before, atol=1e-5)
+
+
+def test_the_range_of_heights_is_found_within_a_quarter_of_a_millimetre() -> (
+    None
+):
+    for low, high in ((0.2, 0.3), (0.1, 0.2), (0.05, 0.24)):
+        found = search_heights(lambda z, a=low, b=high: a < z < b, 0.25)  # type: ignore[misc]
+        assert found == pytest.approx((low, high), abs=2.5e-4)
+        assert low < found[0] and found[1] < high
+    assert search_heights(lambda z: False, 0.25) == (0.0, 0.0)
 
 
 @pytest.mark.parametrize("yaw", [0.0, 0.7, -2.0])

@@ -51,6 +51,9 @@ def test_a_stored_tree_comes_back_as_it_was(
     store_tree(robot)
     without_mujoco(monkeypatch)
     assert to_entries(load_tree(robot)) == to_entries(tree)
+    wrong = replace(robot, left_foot="hoof")  # of a tree that is known by now
+    with pytest.raises(ModelError, match="hoof"):
+        load_tree(wrong)
     assert load_tree(robot).links == tree.links
     assert load_tree(robot).sites == tree.sites
 

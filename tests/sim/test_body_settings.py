@@ -8,7 +8,7 @@ from stepaside.core.poses import Array
 from stepaside.games.game_settings import walk
 from stepaside.games.recorded_game import RecordedGame
 from stepaside.robots.description import load_robot
-from stepaside.sim.body_settings import BodySettings
+from stepaside.sim.body_settings import BODIES, BodySettings
 from stepaside.sim.physics_settings import PhysicsSettings
 from stepaside.sim.simulated_robot import SimulatedRobot
 from walkers import walker_of
@@ -34,6 +34,15 @@ def answer(body: BodySettings, cycles: int, step: float = 0.05) -> Array:
         robot.step()
         angles.append(robot.read().joint_positions[0] - start)
     return np.array(angles)
+
+
+def test_an_ideal_body_has_ideal_servos_and_exact_sensors() -> None:
+    found = [
+        (b.has_ideal_servos, b.has_sensor_errors) for b in BODIES.values()
+    ]
+    assert found == [(True, False), (False, True), (False, True)]
+    assert not BodySettings(backlash=0.01).has_ideal_servos
+    assert BodySettings(backlash=0.01, gyro_noise=0.1).has_sensor_errors
 
 
 def test_a_target_moves_the_joint_after_the_delay() -> None:

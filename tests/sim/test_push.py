@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from stepaside.core.poses import Array
-from stepaside.sim.push import Push, PushApplier
+from stepaside.sim.push import Push, PushApplier, pushes_by_robot
 
 STEP = 0.002
 MODEL = f"""
@@ -80,3 +80,9 @@ def test_the_impulse_changes_the_momentum() -> None:
     expected = 0.8 * np.array([cos(1.5), sin(1.5)])
     np.testing.assert_allclose(bench.pusher.impulse, expected)
     np.testing.assert_allclose(2.0 * bench.data.qvel[6:8], expected)
+
+
+def test_pushes_without_a_name_are_of_the_last_robot() -> None:
+    push, other = Push(1.0, 0.0, 0.0), Push(1.0, 0.0, 0.0, player="a")
+    found = pushes_by_robot([push, other], ["a", "b"])
+    assert found == {"a": (other,), "b": (push,)}

@@ -20,7 +20,7 @@ from stepaside.theory.value import (
     load_table,
     solve_cars,
 )
-from stepaside.theory.value.outcomes import cubic_cell
+from stepaside.theory.value.outcomes import cubic_cell, look_up_all
 from stepaside.theory.value.two_cars import (
     barrier_poses,
     barrier_slice,
@@ -267,3 +267,20 @@ def test_unicycles_that_stand_are_refused(name: str) -> None:
     speeds: Any = {"pursuer_speed": 1.0, "evader_speed": 1.0, name: 0.0}
     with pytest.raises(PlanError, match=f"{name} must be finite and > 0"):
         Unicycles(**speeds, pursuer_gain=1.0, evader_gain=1.0)
+
+
+@pytest.mark.parametrize("cubic", [False, True])
+def test_half_a_table_is_read_as_the_whole(cubic: bool) -> None:
+    """Right of the axis, values are those of the mirror image; also beyond."""
+    half = PoseGrid.covering(0.5, 2.0, 1.0, 1.5, headings=1 if cubic else 8)
+    half = half._replace(cubic=cubic)
+    generator = np.random.default_rng(1)
+    values = generator.random(half.shape)
+    values[:, 0] += np.roll(values[:, 0, ::-1], 1, axis=1)
+    back = np.roll(values[:, :0:-1, ::-1], 1, axis=2)
+    whole = np.concatenate([back, values], axis=1)
+    poses = generator.uniform(-2.2, 2.2, (400, 3))
+    found = np.zeros((2, 400))
+    look_up_all(values, poses, half, found[0])
+    look_up_all(whole, poses, half.whole(), found[1])
+    np.testing.assert_allclose(*found, atol=1e-12)

@@ -25,8 +25,8 @@ MEASURED = VelocityResponse(
             ),
         ),
         AxisResponse(
-            (-1.0, 0.0, 1.0),
-            (V(-0.03, -0.4, 0.02), V(), V(-0.03, 0.4, -0.02)),
+            (-1.0, 0.0, 1.0),  # of legs that creep when they are to stand
+            (V(-0.02, -0.4, 0.03), V(0.01, 0, 0.01), V(-0.02, 0.4, -0.01)),
         ),
         AxisResponse(
             (-1.0, 0.0, 1.0), (V(-0.01, 0.02, -0.9), V(), V(-0.01, 0, 0.9))
