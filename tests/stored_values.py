@@ -44,6 +44,12 @@ def compare_stored(
     assert len(values) == len(stored[key])
 
 
+def rows_of(table: str) -> list[Any]:
+    """Return the rows of a table of what is refused, and how."""
+    rows: list[Any] = json.loads((DATA / "refusals.json").read_text())[table]
+    return rows
+
+
 def words_of(text: str) -> Iterator[str | float]:
     """Yield words and numbers of a printed text, but times and folders."""
     for word in re.sub(OF_THE_MACHINE, "", text).split():

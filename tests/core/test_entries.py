@@ -12,6 +12,7 @@ from stepaside.core.entries import load_entries, read_entries, to_entries
 from stepaside.core.errors import ConfigurationError, PlanError
 from stepaside.core.ranges import Range
 from stepaside.core.setting import REQUIRED, check_settings, setting
+from stored_values import rows_of
 
 LENGTH = Range(0.0, 2.0, "m", "of a foot", above=True, also=(inf,))
 
@@ -82,33 +83,7 @@ def test_omitted_entries_are_those_of_the_base() -> None:
 
 @pytest.mark.parametrize(
     ("changes", "message"),
-    [
-        ({"name": 1}, "name must be text, got 1"),
-        ({"name": "a\0"}, "name must have no null character"),
-        ({"count": True}, r"count must be an integer in \[1, 9\].*True"),
-        ({"count": 2.5}, "count must be an integer .* got 2.5"),
-        ({"ready": 1}, "ready must be true or false, got 1"),
-        ({"part": 3}, "part must be a table, got 3"),
-        (
-            {"part": {"length": nan}},
-            r"part.length must lie in .*\[m\], got nan",
-        ),
-        ({"part": {"lenght": 1}}, "unknown entry part.lenght; did you mean"),
-        ({"part": {"zeal": 1}}, "part.zeal; there are length, kind, least"),
-        ({"part": {"kind": "gold"}}, "part.kind must be one of wood, steel"),
-        ({"part": {"least": 1.5}}, "part: length must be at least least"),
-        ({"parts": [{}] * 3}, "parts must have 0 to 2 entries, got 3"),
-        (
-            {"parts": [{}, {"length": 0}]},
-            "parts 2.length must lie in .* got 0",
-        ),
-        ({"lengths": {"a": -1}}, r"lengths.a must lie in .*\[m\], got -1"),
-        ({"corners": [[1, 2, 3]]}, "corners 1 must have 2 entries, got 3"),
-        ({"corners": [{"y": 1}]}, "missing entry corners 1.x"),
-        ({"scale": "wide"}, "scale must be a finite number, got 'wide'"),
-        ({"scale": [1, nan]}, "scale 2 must be a finite number, got nan"),
-        ({"count": 0, "ready": 1}, "count must .*; ready must"),
-    ],
+    rows_of("test_what_does_not_fit_is_refused_by_path"),
 )
 def test_what_does_not_fit_is_refused_by_path(
     changes: dict[str, Any], message: str

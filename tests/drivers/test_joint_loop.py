@@ -173,22 +173,6 @@ def test_a_frozen_sensor_ends_a_walk_whose_legs_move(what: str) -> None:
     assert "constant while the legs move" in game.reason
 
 
-@pytest.mark.parametrize(
-    "changes",
-    [
-        {"status": status(current=np.array([9.0, 0, 0, 0]))},  # the gripper
-        {"status": status(charge=0.12)},
-        {"status": status(heat=np.array([3, 0, 3, 0]))},  # not of a leg
-        {"gyro": np.array([0.0, 0.0, 5.0])},  # turning is no fall
-        {"sighting": None},  # a robot with a button walks on
-    ],
-)
-def test_a_walk_goes_on_where_all_is_well(changes: dict[str, Any]) -> None:
-    game = walking()
-    game.session.changes |= changes
-    assert game.play(60).state is SafetyState.WALKING
-
-
 def lost(game: Game, said: str) -> None:
     """The session ends with a reason, and the robot goes limp softly."""
     session = game.session
@@ -209,22 +193,6 @@ def test_silence_for_100_ms_ends_the_session() -> None:
     lost(game, "no new report for 0.10 s")
     passed = game.session.now - began
     assert passed == pytest.approx(0.1 + 0.5, abs=0.03)
-
-
-def test_a_simulator_may_pause_for_any_time(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    game = Game(FakeSession(paced=False))
-    game.play(10)
-    session, listen = game.session, game.session.listen
-    end = session.now + 50.0
-
-    def paused(patience: float) -> Any:
-        session.silent = session.now < end
-        return listen(patience)
-
-    monkeypatch.setattr(session, "listen", paused)
-    assert game.play(1).state is SafetyState.REACHING
 
 
 @pytest.mark.parametrize(
@@ -288,17 +256,6 @@ def test_times_that_jump_end_the_session(jump: float, said: str) -> None:
     lost(game, said)
 
 
-def test_a_control_that_was_away_finds_its_robot_limp() -> None:
-    game = walking()
-    game.session.now += 1.0
-    game.session.time += 1.0
-    game.session.changes["status"] = status(stiffness=np.full(4, 0.4))
-    game.play(1)
-    assert game.state is SafetyState.LIMP
-    assert "no report was read for 1.0" in game.reason
-    assert game.sent.stiffness[1] < 0.4 * 80.0
-
-
 def test_a_robot_rests_in_its_crouch_before_it_goes_limp() -> None:
     """Control is told to stop, and the next walk has a scheme of its own."""
     game = walking()
@@ -335,36 +292,6 @@ def test_a_broken_session_ends_and_is_closed() -> None:
     lost(game, "broken")
     game.loop.close()
     assert game.session.closed
-
-
-def test_without_a_button_it_walks_when_ready_and_sees_its_opponent() -> None:
-    game = Game()
-    session = game.session
-    session.changes = {"sighting": None}
-    game.play(80)
-    assert game.state is SafetyState.READY
-    assert game.reason == "no sighting of the opponent"
-    session.changes = {}
-    session.hold = "hold the switch"
-    game.play(4)
-    assert game.state is SafetyState.READY
-    assert game.reason == "hold the switch"
-    session.hold = ""
-    assert game.play(4).state is SafetyState.WALKING
-    session.changes = {"sighting": Sighting(session.time - 0.6, 0.4, 0.7)}
-    assert game.play(1).state is SafetyState.STOPPING
-    assert game.reason == "the sighting of the opponent is 0.62 s old"
-
-
-def test_a_robot_without_a_button_is_given_up_once_it_is_limp() -> None:
-    game = walking()
-    game.schemes[0].fails = ReachError("why not")
-    game.play(1)
-    assert game.loop.given_up == ""  # its button starts it again
-    game.session.changes["status"] = None
-    game.play(1)
-    assert game.loop.given_up.startswith("the robot was released: ")
-    assert game.loop.given_up.endswith("why not")
 
 
 class Described(FakeRobot):

@@ -10,6 +10,7 @@ from joint_fakes import FakeRobot
 from stepaside.core.errors import ConfigurationError
 from stepaside.drivers.robot import HeadLimits, VelocityLimits, VelocityRobot
 from stepaside.drivers.robot_loader import check_robot_class, load_robot_class
+from stored_values import rows_of
 
 VALID = """
 import stepaside as sa
@@ -49,24 +50,7 @@ def test_to_stop_is_to_command_zero_where_the_sdk_has_no_other_way(
 
 @pytest.mark.parametrize(
     ("before", "after", "said"),
-    [
-        ("def listen", "def hears", r"lacks the method listen\(\)"),
-        ("def command", "def moves", r"lacks the method command\(\)"),
-        (f"limits = {LIMITS}", "", "limits must be VelocityLimits"),
-        (LIMITS, "(0.5, 0.4)", r"limits must be .* got \(0.5, 0.4\)"),
-        (", turn=1.0", "", r"all finite, got .*turn=inf"),
-        ("0.5", "-1", "forward must be"),
-        ("(sa.VelocityRobot)", "", "must be a subclass of .*VelocityRobot"),
-        ("class Robot", "class Other", "the file has Other"),
-        ("def listen(self)", "open = 3\n    def listen(self)", "open must be"),
-        ("    limits", "    keeps_walking = 1\n    limits", "keeps_walking"),
-        (
-            "    def listen",
-            "    def __init__(self, address):\n        pass\n\n    def listen",
-            r"Robot\(\) must make a robot",
-        ),
-        ("import", "import nowhere, ", "fails to run: ModuleNotFoundError"),
-    ],
+    rows_of("test_an_invalid_class_is_refused_by_the_name_of_what_is_wrong"),
 )
 def test_an_invalid_class_is_refused_by_the_name_of_what_is_wrong(
     before: str, after: str, said: str, tmp_path: Path

@@ -7,6 +7,7 @@ import pytest
 
 from stepaside.core.errors import ModelError
 from stepaside.robots.description import known_robots, load_robot
+from stored_values import rows_of
 
 NAO = load_robot("nao")
 
@@ -53,19 +54,7 @@ def test_unknown_robot_names_the_known_ones() -> None:
 
 @pytest.mark.parametrize(
     ("old", "new", "message"),
-    [
-        ("l_sole_center", "l_toe", "no site 'l_toe'; there are .*l_sole"),
-        ('"LHipRoll"', '"LHipRol"', "no joint 'LHipRol'"),
-        ("accent =", "acent =", "unknown entry acent; did you mean accent"),
-        ('torso = "torso" ', "", "missing entry torso"),
-        ("HeadYaw =", "Neck =", "no actuator 'Neck'"),
-        ('torso = "torso"', 'torso = "trunk"', "no body 'trunk'"),
-        ("r_sole_center", "r_toe", "foot of NAO: there is no site 'r_toe'"),
-        ("LHipPitch = -0.3", "LHip = -0.3", "standing .* no joint 'LHip'"),
-        ("LKneePitch = [", "LKnee = [", "working_limits .* joint 'LKnee'"),
-        ("HeadYaw = 7.457", "", "there is no speed limit 'HeadYaw'"),
-        ("[speed_limits]", "[speed_limits", "robot.toml"),
-    ],
+    rows_of("test_wrong_description_is_refused_by_name"),
 )
 def test_wrong_description_is_refused_by_name(
     old: str, new: str, message: str, tmp_path: Path

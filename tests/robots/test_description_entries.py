@@ -10,6 +10,7 @@ import tomli_w
 
 from stepaside.core.errors import ModelError
 from stepaside.robots.description import RobotDescription, load_robot
+from stored_values import rows_of
 
 FEET = [f"foot_{i}" for i in range(8)]
 TEXT = f"""
@@ -73,32 +74,7 @@ def told(folder: Path, name: str, value: Any) -> str:
 
 @pytest.mark.parametrize(
     ("name", "value", "message"),
-    [
-        ("name", 1, "name must be text, got 1"),
-        ("legs", "left", "legs must be an array, got 'left'"),
-        ("legs", ["left", 1], "legs 2 must be text, got 1"),
-        ("standing.knee", "bent", "[rad], got 'bent'"),
-        ("standing.knee", True, "standing.knee must lie in [-100, 100] [rad]"),
-        ("standing.knee", float("nan"), "[rad], got nan"),
-        ("standing.knee", 120, "[rad] (120deg for degrees), got 120"),
-        ("speed_limits.knee", 0.0, "speed_limits.knee must lie in (0, 1e+06]"),
-        ("working_limits.knee", [1, 1], "[low, high] with low < high [rad]"),
-        ("working_limits.knee", [1], "working_limits.knee must have 2"),
-        ("sole.back", float("inf"), "sole.back must be a finite number"),
-        ("lean", 0.4, "lean must lie in [0, 0.3] [rad], got 0.4"),
-        ("gait", 1, "gait must be a table"),
-        ("sensors.feet", ["a"], "sensors.feet must have 8 entries, got 1"),
-        (
-            "place.raech",
-            0,
-            "unknown entry place.raech; did you mean place.reach?",
-        ),
-        ("overlay.servos.knee.torque", 0, "[N m], got 0"),
-        ("overlay.soles", [], "overlay.soles must have 2 entries, got 0"),
-        ("published", {"friction": {"knee": 1}}, "unknown entry published.fr"),
-        ("colour", "red", "unknown entry colour; there are folder, name, "),
-        ("folder", "/", "unknown entry folder"),
-    ],
+    rows_of("test_an_entry_that_does_not_fit_is_refused_by_path"),
 )
 def test_an_entry_that_does_not_fit_is_refused_by_path(
     name: str, value: Any, message: str, tmp_path: Path

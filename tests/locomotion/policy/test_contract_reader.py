@@ -20,6 +20,7 @@ from stepaside.locomotion.policy.contract_reader import (
     read_contract,
 )
 from stepaside.locomotion.policy.runner import PolicyNetwork
+from stored_values import rows_of
 
 
 def read(
@@ -230,31 +231,7 @@ def test_a_joint_that_the_robot_lacks_is_named(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     ("entries", "message"),
-    [
-        ({"gains": 1.0}, "unknown entry locomotion.gains"),
-        ({"terms": ["smell"]}, "unknown observation term 'smell'"),
-        ({"default_posture": {"tail": 1.0}}, "'tail' is not a joint"),
-        ({"stiffness": [1.0, 2.0]}, "stiffness must have one value"),
-        ({"clock": {"speed": 1.0}}, "unknown entry locomotion.clock.speed"),
-        ({"period": "soon"}, "locomotion.period must .*soon"),
-        ({"period": True}, "locomotion.period must .*True"),
-        ({"terms": [{"name": "command", "scale": [1.0, 2.0]}]}, "'command'"),
-        ({"joints": ["hip", "hip", "knee"]}, "joints must be named once"),
-        ({"history": 0}, r"history must be an integer in \[1, .* got 0"),
-        ({"history_order": "row"}, "history_order must be one of term, frame"),
-        ({"period": -0.02}, r"period must lie in \(0, .* \[s\]"),
-        ({"period": 5.0}, r"period must lie in \(0, 0.1\] .* got 5"),
-        ({"default_posture": 40.0}, r"posture 1 must .* \[rad\] .* got 40"),
-        (
-            {"clock": {"period": 0.0}},
-            r"clock.period must lie in \(0, .* \[s\]",
-        ),
-        ({"clock": {"period": 1.0, "standing": "sits"}}, "be one of runs,"),
-        ({"stiffness": -5.0}, r"stiffness 1 must lie .*\[N m/rad\], got -5"),
-        ({"command_ranges": {"turn": [1, -1]}}, "turn must ascend"),
-        ({"command_ranges": {"forward": [0.5, 1]}}, "forward must .* 0"),
-        ({"command_ranges": {"ahead": [-1, 1]}}, "command_ranges.ahead"),
-    ],
+    rows_of("test_a_bad_entry_is_named"),
 )
 def test_a_bad_entry_is_named(
     entries: dict[str, Any], message: str, tmp_path: Path
