@@ -159,20 +159,6 @@ def test_a_robot_that_stands_by_itself_is_stiff_at_once_and_given_back() -> (
     assert game.session.sent.count(None) == 1
 
 
-@pytest.mark.parametrize("what", ["accelerometer", "all"])
-def test_a_frozen_sensor_ends_a_walk_whose_legs_move(what: str) -> None:
-    game = walking()
-    game.session.changes["accelerometer"] = np.array([0.0, 0.0, 9.8])
-    if what == "all":
-        game.session.changes["joint_positions"] = game.session.angles
-    game.play(40)
-    assert game.state is SafetyState.WALKING  # the legs stand still
-    for i in range(20):
-        game.play(1, STANCE + 0.1 * np.sin(0.5 * i))
-    assert game.state is not SafetyState.WALKING
-    assert "constant while the legs move" in game.reason
-
-
 def lost(game: Game, said: str) -> None:
     """The session ends with a reason, and the robot goes limp softly."""
     session = game.session

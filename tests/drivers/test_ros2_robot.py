@@ -30,6 +30,7 @@ from stepaside.games.play_settings import PlaySettings  # noqa: E402
 from stepaside.perception.measurement import RobotState  # noqa: E402
 
 from velocity_fakes import until  # isort: skip  # noqa: E402
+from stored_values import rows_of
 
 DOMAIN = 20 + os.getpid() % 200
 TWIST, STAMPED = "geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped"
@@ -363,12 +364,7 @@ def test_a_table_of_a_user_adds_topics(peer: Peer, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     ("text", "said"),
-    [
-        ("[[topics]]\nname = 3", "people of .*: "),
-        ("a = ", "people of .*"),
-        ('[[topics]]\nname = "a"\ntype = "no/msg/No"\nposition = "b"',
-         "there is no definition of no/msg/No"),
-    ],
+    rows_of("test_an_invalid_table_is_refused"),
 )  # fmt: skip
 def test_an_invalid_table_is_refused(
     text: str, said: str, tmp_path: Path

@@ -9,6 +9,7 @@ import pytest
 from stepaside.core.errors import ModelError
 from stepaside.robots.description import load_robot
 from stepaside.robots.head import HeadDescription, load_head
+from stored_values import rows_of
 
 NAO = load_robot("nao")
 HEAD = load_head(NAO)
@@ -52,17 +53,7 @@ def rewritten(folder: Path, old: str, new: str) -> HeadDescription:
 
 @pytest.mark.parametrize(
     ("old", "new", "message"),
-    [
-        ("[coupling]", "[copling]", "coupling"),
-        ("pitch_min =", "pitch_mn =", "pitch_min"),
-        ("pitch = 8.0", 'pitch = "down"', r"depth.pitch must .* \[deg\]"),
-        ("pitch = 8.0", "pitch = 8.0\ntilt = 1", "unknown entry depth.tilt"),
-        ("[rear]", "[rear", "head.toml"),
-        ("[rear]", "[[rear]]\ntilt = 1", "unknown entry rear 1.tilt"),
-        ("yaw = 180.0", 'yaw = "back"', r"rear.yaw must .* \[deg\]"),
-        ("[-0.075, 0.0, 0.1]", "[-0.075, 0.1]", "rear.place must have 3"),
-        ("[-0.075, 0.0, 0.1]", "[-0.075, nan, 0.1]", "rear.place 2 .*nan"),
-    ],
+    rows_of("test_a_wrong_head_is_refused_by_its_file"),
 )
 def test_a_wrong_head_is_refused_by_its_file(
     old: str, new: str, message: str, tmp_path: Path

@@ -14,6 +14,7 @@ from stepaside.sim.person_motion import (
     read_path,
 )
 from stepaside.sim.person_settings import PersonSettings
+from stored_values import rows_of
 
 EVADER = (1.0, -2.0)
 
@@ -116,16 +117,7 @@ def test_a_recorded_walk_is_where_and_heads_as_recorded(
 
 @pytest.mark.parametrize(
     ("lines", "message"),
-    [
-        ("", "has 0"),
-        ("0,1,2\n", "has 1"),
-        ("0,1\n1,2\n", "needs two rows of time,x,y"),
-        ("0,1,2,3\n1,2,3,4\n", "needs two rows of time,x,y"),
-        ("0,0,0\n0,1,1\n", "finite, and times must increase"),
-        ("0,0,nan\n1,1,1\n", "finite, and times must increase"),
-        ("0,0,0\n1,inf,1\n", "finite, and times must increase"),
-        ("0,0,0\n1,1\n", "must be steer, straight or a CSV file"),
-    ],
+    rows_of("test_invalid_rows_are_refused"),
 )
 def test_invalid_rows_are_refused(
     tmp_path: Path, lines: str, message: str

@@ -283,4 +283,4 @@ def test_half_a_table_is_read_as_the_whole(cubic: bool) -> None:
     found = np.zeros((2, 400))
     look_up_all(values, poses, half, found[0])
     look_up_all(whole, poses, half.whole(), found[1])
-    np.testing.assert_allclose(*found, atol=1e-12)
+    np.testing.assert_allclose(found[0], found[1], atol=1e-12)
