@@ -152,8 +152,7 @@ def from_environment(level: str, *, room: bool) -> Row:
     last: dict[str, Knowledge] = {}
     while env.agents:
         for name, mind in minds.items():
-            known = env.known(name)
-            assert known is not None
+            known = env.known[name]
             if known is last.get(name):
                 continue  # it does not decide
             intent, memories[name] = mind.decide(known, memories[name])

@@ -245,7 +245,7 @@ class VectorDuel(VectorEnv[Row, Any, Any]):
         The opponent is evasion, pursuit of any gain, sharp, stand, FILE.onnx,
         or such a strategy; many games are not drawn.
         """
-        check_choice(role, PLAYERS, "role")
+        (strategy,) = load_opponent(opponent, role).values()
         if render_mode is not None:
             raise ConfigurationError(
                 "render_mode must be None for many games, got "
@@ -262,7 +262,6 @@ class VectorDuel(VectorEnv[Row, Any, Any]):
         self.num_envs = number = int(num_envs)
         self._own, self._other = (0, 1) if role == "pursuer" else (1, 0)
         self._rules = rules = rules_of(given)
-        (strategy,) = load_opponent(opponent, role).values()
         strategy = with_body_radius(strategy, rules.radii[self._other])
         self._opponent = (
             strategy

@@ -92,7 +92,8 @@ class ParallelGames(ParallelEnv[str, Row, Any]):
     :mod:`stepaside.theory.value.two_cars` bounds. A pursuer has the negative
     mean of those of all evaders.
 
-    The agents are the players that learn, by name; ``render_mode`` is
+    The agents are the players that learn, by name, and ``known`` is their
+    knowledge for their decisions, once they see; ``render_mode`` is
     "rgb_array", for images from above, or None.
     """
 
@@ -169,12 +170,12 @@ class ParallelGames(ParallelEnv[str, Row, Any]):
         self._held = {n: HeldIntent(role) for n, role in self._roles.items()}
         self._game, self._room = self.begin(self._seed, self._held)
         game = self.game
-        self._known = self._due()
-        while len(self._known) < len(self._held) and not (
+        self.known = self._due()
+        while len(self.known) < len(self._held) and not (
             game.ended or game.world.time > self.patience
         ):
             game.tick()
-            self._known |= self._due()
+            self.known |= self._due()
         self.agents = list(self.possible_agents)
         return self._look()
 
@@ -184,13 +185,6 @@ class ParallelGames(ParallelEnv[str, Row, Any]):
         if self._game is None:
             raise PlanError("reset the environment first: no episode is on")
         return self._game
-
-    def known(self, name: str) -> Knowledge | None:
-        """Return the knowledge of a player that learns for its decision.
-
-        None before it sees.
-        """
-        return self._known.get(name)
 
     def _due(self) -> dict[str, Knowledge]:
         """Return what learners know for decisions that are due."""
@@ -202,7 +196,7 @@ class ParallelGames(ParallelEnv[str, Row, Any]):
 
         It does for one that walks, or has been kept from starting.
         """
-        passed = known.time - self._known[name].time
+        passed = known.time - self.known[name].time
         kept = passed > RETRY - 1e-9 and self._held[name].intent.walks
         return known.moving or kept
 
@@ -240,7 +234,7 @@ class ParallelGames(ParallelEnv[str, Row, Any]):
             over = any(self._asks(*each) for each in due.items()) or (
                 late and not any(map(world.is_moving, names))
             )
-        self._known |= due
+        self.known |= due
         gains = {n: now - before[n] for n, now in self.closest().items()}
         taken = -sum(gains.values()) / len(gains)  # by each pursuer
         if game.ended:
@@ -384,7 +378,7 @@ class ParallelDuel(ParallelGames):
 
     def observe(self, name: str) -> Row:
         """Return the observation of a player."""
-        known, given = self.known(name), self.settings
+        known, given = self.known.get(name), self.settings
         if known is None:
             raise StrategyError(
                 f"a player must see its opponent within {self.patience:g} s, "
@@ -467,7 +461,7 @@ class ParallelGame(ParallelGames):
 
         Values of players that it has not seen are zero.
         """
-        known = self.known(name)
+        known = self.known.get(name)
         found = np.zeros(self._observed[name].shape, np.float32)
         if known is not None:
             seen = sorted(known.others, key=lambda other: other.distance)

@@ -142,9 +142,6 @@ class FloorWalk(FloorMotion):
     """Template of a robot, or unicycle.
 
     It follows the arc of its last decision for a step, or a part of it.
-
-    Attributes:
-        decision_times: Of the processor, in [s], noted if it is a list.
     """
 
     agent: FloorAgent
@@ -168,6 +165,7 @@ class FloorWalk(FloorMotion):
         """
         self.agent, self.pose = agent, pose
         self.is_walking = False
+        # Processor times of decisions, in [s], noted if it is a list.
         self.decision_times: list[float] | None = None
         self._parts, self._delay = parts, delay
         self._alert = alert or agent.limits.step_duration / parts

@@ -92,15 +92,12 @@ def convergence_time(
     settings: GameSettings,
     theory: Circle,
 ) -> float | None:
-    """Find the time from which the robots stay on the circle.
+    """Find the time [s] from which the robots stay on the circle, if they do.
 
     The robots are on the circle if, averaged over a gait cycle, their
     distance is within 5 % and the angle between their headings within 5
     degrees of the values on the circle, from then to the end, and for at
     least the last 5 s.
-
-    Returns:
-        Time, in [s]; None if the robots do not converge to the circle.
     """
     if not theory.exists:
         return None

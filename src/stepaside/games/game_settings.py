@@ -464,12 +464,9 @@ def walk(
 ) -> GameSettings:
     """Return the settings of a walk of one robot, the player ``walker``.
 
-    Args:
-        bearing: Desired heading in the frame of the support foot, in [rad];
-            0 is straight ahead, others walk a circle.
-        backward: Whether it walks backward.
-        changes: Differences from a walk of NAO for 20 s; see
-            :meth:`GameSettings.changed`.
+    The bearing is the desired heading in the frame of the support foot, in
+    [rad]: 0 is straight ahead, others walk a circle. Changes are differences
+    from a walk of NAO for 20 s, as in :meth:`GameSettings.changed`.
     """
     way = f"walk{'-backward' * backward}(bearing={bearing!r})"
     own = PlayerSettings(WALKER, strategy=way, start=(0.0, 0.0, 0.0))

@@ -63,15 +63,10 @@ class PlayerRecord:
             self.solved.append(walk.balance.solved)
         if walk is not None and begun is not None:
             frame = player.frame.compose(walk.plan_frame)
-            self._plans += [
-                (
-                    begun.started,
-                    float(number),
-                    float(step.foot.value),
-                    *frame.compose(Pose(step.x, step.y, step.theta)),
-                )
-                for number, step in enumerate(begun.plan.footsteps)
-            ]
+            for number, step in enumerate(begun.plan.footsteps):
+                pose = frame.compose(Pose(step.x, step.y, step.theta))
+                row = begun.started, number, step.foot.value, *pose
+                self._plans.append(row)
         for percept in player.robot.eyes.exposed if player.robot.eyes else ():
             if isinstance(percept, ColourImage | DepthImage):
                 if percept.time >= now - 1e-9:
