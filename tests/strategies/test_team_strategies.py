@@ -124,11 +124,11 @@ def test_a_walker_heads_for_its_goal_and_gives_way() -> None:
     assert heading(walk, known("g1", g2=(-3.0, 0.0))) == pytest.approx(0.0)
     ahead = known("g1", g2=(1.5, 0.05))
     (other,) = ahead.others
-    comes = replace(ahead, others=(replace(other, velocity=(-0.3, 0.0)),))
+    comes = replace(ahead, others=(other._replace(velocity=(-0.3, 0.0)),))
     assert heading(walk, comes) < -0.2
     at_once = known("g1", g2=(0.5, 0.0))
     (other,) = at_once.others
-    hit = replace(at_once, others=(replace(other, velocity=(-1.0, 0.0)),))
+    hit = replace(at_once, others=(other._replace(velocity=(-1.0, 0.0)),))
     assert not walk.decide(hit, walk.begin())[0].walks
     there = GoalWalk(goal=(0.1, 0.0))
     assert not there.decide(ahead, there.begin())[0].walks
@@ -150,7 +150,7 @@ def test_legs_of_any_direction_walk_to_the_goal_and_step_aside() -> None:
     assert free.forward == pytest.approx(0.7) and abs(free.lateral) < 1e-9
     ahead = known("g1", g2=(1.5, 0.05))
     (other,) = ahead.others
-    comes = replace(ahead, others=(replace(other, velocity=(-0.5, 0.0)),))
+    comes = replace(ahead, others=(other._replace(velocity=(-0.5, 0.0)),))
     assert velocity(walk, comes).lateral < -0.2
     near = known("g1", g2=(0.4, 0.0))  # within contact: it backs away
     assert velocity(walk, near).forward < 0.0
@@ -160,8 +160,8 @@ def test_a_walker_keeps_clear_of_walls_while_it_gives_way() -> None:
     walk = GoalWalk(goal=(5.0, 0.0))
     ahead = known("g1", g2=(1.5, 0.05))
     (other,) = ahead.others
-    comes = replace(ahead, others=(replace(other, velocity=(-0.5, 0.0)),))
-    slow = replace(ahead, others=(replace(other, velocity=(-0.3, 0.0)),))
+    comes = replace(ahead, others=(other._replace(velocity=(-0.5, 0.0)),))
+    slow = replace(ahead, others=(other._replace(velocity=(-0.3, 0.0)),))
     wall = ObstacleSet((Box(1.0, -0.35, 4.0, 0.2),))  # on its right
     assert velocity(walk, comes).lateral < 0.0
     assert velocity(walk, replace(comes, obstacles_in_map=wall)).lateral > 0.0

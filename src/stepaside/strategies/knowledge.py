@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, replace
 from math import atan2, cos, hypot, pi, sin, tau
+from typing import NamedTuple
 
 from ..arena import NO_OBSTACLES, ObstacleSet
 from ..core.errors import check_within
@@ -63,8 +64,7 @@ def limits_of(
     )
 
 
-@dataclass(frozen=True, slots=True)
-class OtherPlayer:
+class OtherPlayer(NamedTuple):
     """Knowledge of one other player, in the frame of :class:`Knowledge`."""
 
     identity: PlayerIdentity  # name, role and team
@@ -123,8 +123,9 @@ class Knowledge:
 
     def __post_init__(self) -> None:
         """Check the bearing."""
-        if not -tau <= self.bearing <= tau:  # spare a call of the check
-            check_within(self.bearing, -tau, tau, "bearing", "rad")
+        bearing = self.bearing  # most are valid, and spare a call
+        if type(bearing) is not float or not -tau <= bearing <= tau:
+            check_within(bearing, -tau, tau, "bearing", "rad")
 
     @property
     def position(self) -> tuple[float, float]:
