@@ -37,6 +37,7 @@ from stepaside.robots.description import load_robot
 from stepaside.robots.newton_step import BodyReference
 from stepaside.sim.outline_measurement import measure_outline
 from stepaside.strategies import Intent, Knowledge
+from stored_values import compare_stored, summed
 
 NAO = load_robot("nao")
 MARGIN = 0.02
@@ -308,3 +309,21 @@ def test_the_body_has_the_heading_of_its_feet() -> None:
         np.testing.assert_allclose(
             shape - shape.mean(axis=0), turned @ [[c, s], [-s, c]], atol=0.02
         )
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_a_walk_among_obstacles_goes_as_stored(seed: int) -> None:
+    """Where each foot lands and when, and how the body moves meanwhile."""
+    recipe = RoomRecipe(2.2, 2.2, discs=2, boxes=1, largest=0.2)
+    room = generate_room(recipe, seed)
+    assert room.starts is not None
+    scheme = scheme_in(room, room.starts[0], seed, 0.04)
+    found: list[Any] = []
+    for tick in range(500):
+        seen = Sighting(0.04 * tick, 0.3, 1.0)
+        still = np.zeros(3), np.zeros(3), np.zeros(3), np.zeros(8)
+        scheme.update(RobotState(0.04 * tick, *still, seen))
+        found += [scheme.phase.value, scheme.walk.pose]
+        if (begun := scheme.begun) is not None:
+            found += [begun[1:5], begun.velocity_jump]
+    compare_stored("walks.json", f"room {seed}", summed(found), 1e-5)

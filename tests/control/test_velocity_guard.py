@@ -14,6 +14,7 @@ from stepaside.strategies.velocity_set import (
     BodyVelocity,
     VelocitySet,
 )
+from stored_values import compare_stored, summed
 
 ORIGIN = Pose(0.0, 0.0, 0.0)
 HALTING = AxisValues(0.3, 0.15, 0.1)
@@ -152,3 +153,15 @@ def test_an_open_floor_changes_nothing() -> None:
     guard = VelocityGuard(KnownRoom(Room(), ORIGIN), SIDEWAYS, CLEARANCE)
     wish = BodyVelocity(3.0, 1.0, 2.0)
     assert guard.admit(wish, ORIGIN, DURATION) == wish
+
+
+@pytest.mark.parametrize("velocities", [SIDEWAYS, UNICYCLE], ids=["2", "1"])
+def test_velocities_are_admitted_as_stored(velocities: VelocitySet) -> None:
+    draw, guard = np.random.default_rng(1), guard_of(velocities)
+    found = []
+    for _ in range(400):
+        place = Pose(*draw.uniform((-3, -2, -3), (3, 2, 3)).tolist())
+        wanted = BodyVelocity(*draw.uniform(-1, 1, 3).tolist())
+        found.append(guard.admit(wanted, place, DURATION))
+    key = f"velocities, {velocities.lateral[1]}"
+    compare_stored("walks.json", key, summed(found), 1e-5)

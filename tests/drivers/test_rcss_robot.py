@@ -26,6 +26,7 @@ from stepaside.drivers.rcss import (
 from stepaside.drivers.robot import JointTargets
 from stepaside.drivers.robot_loader import RobotRequest
 from stepaside.games.play_settings import PlaySettings
+from stored_values import compare_stored, summed, words_of
 
 LONGEST = 60.0  # for what takes seconds on an idle machine, in [s]
 STANDING = {
@@ -100,6 +101,7 @@ class FakeLeague:
 def test_unbalanced_messages_are_refused(text: bytes) -> None:
     with pytest.raises(ConnectionError):
         parse_expressions(text)
+    assert parse_expressions(b"a (b (c) 1) () d") == [["b", ["c"], "1"]]
 
 
 def test_the_nearest_player_of_another_team_is_the_opponent() -> None:
@@ -149,7 +151,11 @@ def test_messages_become_reports_and_commands_motors() -> None:
     assert float(head[1]) == pytest.approx(np.degrees(seen.bearing), abs=0.01)
     robot.listen()
     assert league.received[-1] == "(syn)"  # nothing was commanded
+    reports = [robot.listen() for _ in range(3)]
     robot.close()
+    text = " ".join([*league.received[:5], *league.received[-6:]])
+    found = [*words_of(text), float(len(league.received))]
+    compare_stored("plays.json", "league", [*found, *summed(reports)])
 
 
 @pytest.fixture
