@@ -23,6 +23,7 @@ from stepaside.planning import (
     ManeuverPlan,
     ManeuverPlanner,
 )
+from stored_values import compare_stored, summed
 
 GAIT = GaitSettings()
 EDGE = 0.002
@@ -187,3 +188,14 @@ def test_mirrored_games_have_mirrored_answers(
     if one.feasible:
         assert two.velocity[0] == pytest.approx(one.velocity[0], abs=1e-6)
         assert two.velocity[1] == pytest.approx(-one.velocity[1], abs=1e-6)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_random_errors_are_answered_as_stored(kind: str) -> None:
+    """Also those that no ZMP holds, and ZMPs that lie outside the feet."""
+    draw, mpc, found = np.random.default_rng(5), solver(), list[object]()
+    for _ in range(60):
+        time, bearing = draw.random(), draw.uniform(-1.0, 1.0)
+        dcm, zmp = draw.normal(0.0, 0.03, (2, 2))
+        found += mpc.solve(plan_of(kind, bearing), time, dcm, zmp)[:3]
+    compare_stored("numbers.json", f"mpc, {kind}", summed(found), 1e-3)

@@ -13,6 +13,7 @@ from stepaside.locomotion.zmp.state_estimator import (
 )
 from stepaside.perception.measurement import RobotState
 from stepaside.robots.leg_kinematics import BodyReference
+from stored_values import compare_stored, summed
 
 ETA, TICK = 6.0, 0.004
 GRAVITY = np.array([0.0, 0.0, 9.81])
@@ -174,3 +175,19 @@ def test_commanded_acceleration_is_not_mistaken_for_tilt() -> None:
     for _ in range(200):
         state = estimate.update(measured(felt=felt), FEET, asked)
     assert state.tilt == pytest.approx((0.0, 0.0), abs=1e-9)
+
+
+def test_estimates_of_random_measurements_are_as_stored() -> None:
+    draw, body = np.random.default_rng(3), FakeKinematics()
+    estimate, found = estimator(body), []
+    for _ in range(400):
+        body.lever = LEVER + draw.normal(0.0, 0.02, 3)
+        body.torso = rotation(0.1 * draw.normal(), 0.1 * draw.normal(), 0.2)
+        forces = draw.uniform(0.0, 20.0, 8) * (draw.random(8) < 0.7)
+        forces[:4] *= draw.random() < 0.7
+        felt = GRAVITY + draw.normal(0.0, 0.3, 3)
+        told = measured(forces[:4], forces[4:], felt)
+        told = told._replace(gyro=draw.normal(0.0, 0.2, 3))
+        rest = draw.normal(0.0, 0.1, (2, 2)).tolist()
+        found.append(estimate.update(told, FEET, *map(tuple, rest)))
+    compare_stored("numbers.json", "estimator", summed(found), 1e-5)

@@ -15,6 +15,7 @@ from stepaside.robots.joint_tree import joint_tree
 from stepaside.robots.leg_kinematics import BodyReference, LegKinematics
 from stepaside.robots.newton_step import linearise, move_within
 from stepaside.robots.tree_cache import load_tree
+from stored_values import compare_stored, summed
 from synthetic_humanoid import synthetic_humanoid
 
 NAO = load_robot("nao")
@@ -176,3 +177,30 @@ def test_other_joints_are_optimal_with_one_at_its_limit() -> None:
     assert move == pytest.approx([0.1, 0.02, 0, 0, 0.08, 0])
     move = bounded((0, 0, 0.2, 0, 0.3, -0.4))
     assert move == pytest.approx([0.1, -0.1, 0, 0, 0.2, 0])
+
+
+@pytest.mark.parametrize("size", [0.002, 0.03])
+@pytest.mark.parametrize("name", ROBOTS)
+def test_random_references_are_followed_as_stored(
+    name: str, size: float
+) -> None:
+    """Within reach and beyond, where joints stop at their limits."""
+    draw, made = np.random.default_rng(7), robot(name)
+    legs, found = LegKinematics(made, tick=TICK), []
+    stance = STANCE if name != "nao" else STANCE._replace(com=(0.01, 0, 0.26))
+    stance = stance._replace(
+        left_foot=(0.01, 0.05, 0, 0.1), right_foot=(-0.01, -0.05, 0, -0.05)
+    )
+    legs.stand(stance)
+    row = np.array(stance.row())
+    for _ in range(120):
+        goal = BodyReference.from_row(
+            (row + draw.normal(0, size, row.size)).tolist()
+        )
+        try:
+            found += [legs.track(goal), legs.torso_heading]
+        except ReachError as error:
+            found.append(str(error))
+            legs.stand(stance)
+    key = f"legs, {name}, {size}"
+    compare_stored("numbers.json", key, summed(found), 1e-5)

@@ -14,6 +14,7 @@ from stepaside.theory.unicycle.simulation import (
     play_games,
     simulate,
 )
+from stored_values import compare_stored, summed
 
 GAMES = [
     Unicycles(1.0, 1.0, 0.5, 0.5),
@@ -168,3 +169,10 @@ def test_values_out_of_range_are_refused_by_name(
 ) -> None:
     with pytest.raises(PlanError, match=f"^{name} must"):
         play_games(GAMES[0], [[1.0, 0.0, 0.0]], **options)
+
+
+@pytest.mark.parametrize("number", range(len(GAMES)))
+def test_random_games_end_as_stored(number: int) -> None:
+    starts = random_starts(60, seed=number)
+    found = play_games(GAMES[number], starts, 30.0, capture_distance=0.05)
+    compare_stored("numbers.json", f"games {number}", summed(found), 1e-4)

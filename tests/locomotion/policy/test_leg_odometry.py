@@ -11,6 +11,7 @@ from stepaside.core.poses import Array, Pose
 from stepaside.locomotion.policy.leg_odometry import LegOdometry
 from stepaside.perception.measurement import RobotState
 from stepaside.planning import Foot
+from stored_values import compare_stored, summed
 
 PERIOD = 0.02
 LEFT, RIGHT = (0.0, 0.1), (0.0, -0.1)  # feet in odometry, in [m]
@@ -177,3 +178,19 @@ def test_a_foot_that_just_landed_counts_a_tenth(stands: bool) -> None:
         run(odometry)
     share = 0.1 / 1.1 if stands else 1.0
     assert odometry.pose.x == pytest.approx(-0.01 * share)
+
+
+def test_random_feet_move_the_torso_as_stored() -> None:
+    draw, odometry = np.random.default_rng(11), begun_with(np.zeros(24))
+    feet, found = np.array([[*LEFT, -0.7], [*RIGHT, -0.7]]), []
+    for i in range(300):
+        feet = feet + draw.normal(0.0, 0.004, (2, 3))
+        axes = [about_lateral(a) for a in draw.normal(0.0, 0.1, 2)]
+        angles = np.concatenate([feet[:, None], np.array(axes)], axis=1)
+        forces = draw.random(8) * (draw.random(8) < 0.6)
+        tilt, turned = draw.normal(0.0, 0.05, 2).tolist(), 0.01 * sin(0.1 * i)
+        told = sensed(angles.ravel(), forces)
+        odometry.take(told, (tilt[0], tilt[1]), turned, PERIOD)
+        run(odometry)
+        found += [odometry.pose, odometry.velocity, odometry.stance]
+    compare_stored("numbers.json", "odometry", summed(found), 1e-5)

@@ -10,6 +10,7 @@ from stepaside.locomotion.policy.velocity_response import (
     VelocityResponse,
 )
 from stepaside.strategies.velocity_set import BodyVelocity
+from stored_values import compare_stored, summed
 
 V = BodyVelocity
 MEASURED = VelocityResponse(
@@ -73,3 +74,11 @@ def test_an_axis_that_does_not_follow_is_refused() -> None:
     flat = AxisResponse((-1.0, 0.0, 1.0), (V(), V(), V(0.5, 0.0, 0.0)))
     with pytest.raises(PolicyError, match="forward.delivered must ascend"):
         VelocityResponse(flat, MEASURED.lateral, MEASURED.turn)
+
+
+def test_commands_for_random_velocities_are_as_stored() -> None:
+    """Also for those that the legs cannot deliver."""
+    wanted = np.random.default_rng(9).uniform(-1.5, 1.5, (300, 3))
+    found = [command_for(MEASURED, V(*row)) for row in wanted.tolist()]
+    nearest = [MEASURED.velocities.nearest(V(*row)) for row in wanted.tolist()]
+    compare_stored("numbers.json", "response", summed([found, nearest]), 1e-5)
