@@ -20,33 +20,9 @@ from stepaside.robots.model_overlay import (
     put_overlay,
     scaled_couplings,
 )
+from stored_values import DATA
 
-MODEL = """<mujoco>
-  <option gravity="0 0 -1" timestep="0.1" integrator="RK4"/>
-  <visual><headlight ambient="1 0 0"/><map znear="0.5"/></visual>
-  <worldbody>
-    <light pos="0 0 3"/><camera pos="0 -3 1"/><site name="mark"/>
-    <geom name="ground" type="plane" size="1 1 1"/>
-    <body name="rail"><geom size="0.1"/></body>
-    <body name="trunk" pos="0 0 0.5">
-      {joints}
-      <geom size="0.1"/>
-      <body name="left" pos="0 0.1 -0.3">
-        <joint name="left_bend" axis="0 1 0" damping="3" armature="0.2"
-          actuatorfrcrange="-1 1" actuatorfrclimited="true"/>
-        <geom size="0.02"/>
-        <body name="toe" pos="0.1 0 0"><geom size="0.01"/></body>
-      </body>
-      <body name="right" pos="0 -0.1 -0.3">
-        <joint name="right_bend" axis="0 1 0" armature="0.2"/>
-        <geom size="0.02"/><site name="r_sole"/>
-      </body>
-    </body>
-  </worldbody>
-  <actuator><motor joint="left_bend"/></actuator>
-  <sensor><framepos objtype="body" objname="trunk"/></sensor>
-  <keyframe><key time="1"/></keyframe>
-</mujoco>"""
+MODEL = (DATA / "trunk.xml").read_text("utf-8")
 TURN = (0.9, 0.1, -0.3, 0.2)  # of both soles, as quaternions of any length
 SOLES = (
     SoleFrame("left", (0.01, 0.02, -0.05), TURN),

@@ -10,40 +10,11 @@ from stepaside.core.poses import Array
 from stepaside.robots.description import RobotDescription, load_robot
 from stepaside.robots.description_types import SensorNames
 from stepaside.robots.urdf_writer import BASE, urdf_of
+from stored_values import DATA
 
 # Anchors off the origin, two hinges on one body, a zero that is not 0, a
 # slide, rotated bodies, a mesh-free ellipsoid and a continuous joint.
-ODD = """
-<mujoco>
-  <compiler angle="radian" autolimits="true"/>
-  <worldbody>
-    <body name="chest" pos="0 0 1">
-      <freejoint/>
-      <geom type="box" size="0.1 0.2 0.3" mass="3"/>
-      <site name="imu" pos="0.01 0.02 0.03" euler="0.1 0.2 0.3"/>
-      <body name="upper" pos="0.1 0.2 -0.3" euler="0.4 -0.3 0.2">
-        <joint name="first" axis="0 1 0" pos="0.02 0.01 -0.03" ref="0.3"
-          range="-1 1"/>
-        <joint name="second" axis="1 1 0" pos="-0.01 0 0.05"/>
-        <geom type="ellipsoid" size="0.05 0.04 0.1" mass="1"/>
-        <body name="lower" pos="0 0 -0.4" quat="0 1 0 0">
-          <joint name="third" type="slide" axis="0 0 1" pos="0.1 0 0"
-            ref="0.05" range="-0.1 0.2"/>
-          <geom type="capsule" size="0.03 0.1" pos="0.1 0 0" mass="0.5"/>
-          <site name="left"/>
-          <body name="tip" pos="0.1 0 0.1" euler="0 1.5707963267948966 0">
-            <geom type="cylinder" size="0.02 0.05" mass="0.1"/>
-            <site name="right"/>
-          </body>
-        </body>
-      </body>
-    </body>
-  </worldbody>
-  <actuator>
-    <motor joint="first" gear="2" forcerange="-3 5"/>
-  </actuator>
-  <sensor><gyro name="turns" site="imu"/></sensor>
-</mujoco>"""
+ODD = (DATA / "odd_robot.xml").read_text("utf-8")
 
 
 def odd_robot(folder: Path, text: str = ODD) -> RobotDescription:

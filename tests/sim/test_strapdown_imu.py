@@ -5,24 +5,9 @@ import numpy as np
 import pytest
 
 from stepaside.sim.body_errors import StrapdownImu
+from stored_values import DATA
 
-MODEL = """
-<mujoco>
-  <option timestep="0.0002" gravity="0 0 -9.81"/>
-  <worldbody>
-    <body name="torso" pos="0 0 1">
-      <freejoint/>
-      <geom type="box" size="0.1 0.2 0.3" mass="3" contype="0"
-       conaffinity="0"/>
-      <site name="imu" pos="0.05 -0.1 0.2" euler="0 30 80"/>
-    </body>
-  </worldbody>
-  <sensor>
-    <gyro site="imu"/>
-    <accelerometer site="imu"/>
-  </sensor>
-</mujoco>
-"""
+MODEL = (DATA / "imu_box.xml").read_text("utf-8")
 STEPS = 100  # 20 ms
 
 
