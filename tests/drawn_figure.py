@@ -1,6 +1,7 @@
 """What a figure shows, as texts and numbers."""
 
 from collections.abc import Iterator
+from itertools import chain
 from typing import Any
 
 import numpy as np
@@ -8,22 +9,34 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 from matplotlib.text import Text
+from matplotlib.ticker import FixedLocator
 
 
 def content_of(figure: Figure) -> Iterator[Any]:
     """Yield labels, and the colours and means of all that is drawn."""
+    yield from map(float, figure.get_size_inches())
+    yield figure.get_suptitle()
+    yield from chain.from_iterable(map(_legend, figure.legends))
+    axes: Any
     for axes in figure.axes:
         yield from ("axes", *map(float, axes.get_position().bounds))
         yield from (axes.get_title(), axes.get_xlabel())
         yield from (axes.get_ylabel(), str(axes.get_aspect()))
         yield str(axes.xaxis_inverted() or axes.yaxis_inverted())
+        yield f"{axes.axison} {axes.get_xscale()} {axes.get_yscale()}"
+        yield from map(float, (*axes.get_xlim(), *axes.get_ylim()))
+        yield from map(float, axes.titleOffsetTrans.to_values()[4:])
+        for axis in (axes.xaxis, axes.yaxis):
+            if isinstance(axis.get_major_locator(), FixedLocator):
+                yield " ".join(t.get_text() for t in axis.get_ticklabels())
         for line in axes.lines:
             yield from ("line", _label(line), _colour(line.get_color()))
             yield f"{line.get_linestyle()} {line.get_marker()}"
-            yield float(line.get_linewidth())
+            yield from (float(line.get_linewidth()), float(line.get_zorder()))
             yield from _mean(line.get_xydata())
         for each in axes.collections:
-            yield from ("collection", _label(each))
+            yield from ("collection", _label(each), float(each.get_zorder()))
+            yield from map(float, each.get_linewidths()[:2])
             yield from map(_colour, each.get_facecolor()[:2])
             yield from map(_colour, each.get_edgecolor()[:2])
             yield from _mean(each.get_offsets())
@@ -41,17 +54,24 @@ def content_of(figure: Figure) -> Iterator[Any]:
             rows, columns = (np.arange(n) / n for n in values.shape[:2])
             yield from (rows @ values.mean(axis=1)).ravel().tolist()
             yield from (columns @ values.mean(axis=0)).ravel().tolist()
+        text: Any
         for text in axes.texts:
             yield from (text.get_text(), *map(float, text.get_position()))
-            beside = text.get_horizontalalignment()
-            yield f"{_colour(text.get_color())} {beside}"
+            place = f"{text.get_ha()} {text.get_va()}"
+            yield f"{_colour(text.get_color())} {place}"
+            yield from (float(text.get_fontsize()), float(text.get_rotation()))
         legend = axes.get_legend()
         if legend is not None:
-            yield from (each.get_text() for each in legend.get_texts())
-            frame = legend.get_frame()
-            yield f"{frame.get_visible()} {_colour(frame.get_facecolor())}"
+            yield from _legend(legend)
     illegible = [*_illegible(figure)]
     assert not illegible, illegible
+
+
+def _legend(legend: Any) -> Iterator[Any]:
+    yield from (each.get_text() for each in legend.get_texts())
+    frame = legend.get_frame()
+    yield f"{frame.get_visible()} {_colour(frame.get_facecolor())}"
+    yield f"{legend._loc} {legend._ncols}"
 
 
 def _label(artist: Any) -> str:

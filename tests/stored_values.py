@@ -15,8 +15,9 @@ from typing import Any
 import numpy as np
 import pytest
 
+PATH = r"(?<!\S)(?![\[(]?(?:m|rad|deg|1)/s\b)\S*/\S*"  # no unit
 OF_THE_MACHINE = (
-    r"real time factor +\S+|(median|p99) \S+ us|solver time .*|\S*/\S*"
+    rf"real time factor +\S+|(median|p99) \S+ us|solver time .*|{PATH}"
 )
 LONG = 300  # of a text that is cut, in characters
 DATA = Path(__file__).parent / "data"

@@ -1,12 +1,14 @@
 """An interrupted command reports what is saved."""
 
 from pathlib import Path
+from signal import SIGINT
 from typing import Any
 
 import click
 import pytest
 from click.testing import CliRunner
 
+from expected.asking import command, own_evader
 from stepaside.cli.main import LazyGroup, main
 from stepaside.cli.terminal import resume_message
 
@@ -30,6 +32,19 @@ def test_reproduce_interrupted_while_drawing_reports_saved_runs(
     result = CliRunner().invoke(main, ["reproduce", f"--output={tmp_path}"])
     assert result.exit_code == 130
     assert "all runs and completed figures are saved" in result.stderr
+
+
+@pytest.mark.usefixtures("inline_workers")
+def test_an_interrupted_study_draws_no_figure(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    own = own_evader(tmp_path / "own.py", number=SIGINT)
+    words = f"study duels --set level=steps --set evader={own} --set seed=0:2 "
+    words += "--set duration=2 --output a.sqlite --figure a.png --workers 1"
+    done = command(*words.split())
+    assert done.exit_code == 130 and not Path("a.png").exists()
+    assert "0 of 2 games are saved in a.sqlite; run the same" in done.stderr
 
 
 def test_interruption_anywhere_else_is_one_line() -> None:

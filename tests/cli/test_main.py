@@ -1,7 +1,6 @@
 """Test the command line: JSON, run folders, refusals."""
 
 import json
-import re
 import tomllib
 from concurrent.futures import BrokenExecutor
 from math import inf
@@ -91,46 +90,6 @@ def test_duel_writes_a_run_folder_that_repeats_it(tmp_path: Path) -> None:
     assert arrays["pursuer_com"].shape == (len(arrays["times_s"]), 3)
 
 
-BAD = [
-    ("duel --room -3", "seed of a random room must.*-3"),
-    ("duel --duration nan", "duration.*must.*nan"),
-    ("duel --duration -3", "duration must lie.*-3"),
-    ("duel --seed -1", "seed.*-1"),
-    ("duel --distance 0.1", "distance must lie in.*m.*0.1"),
-    (
-        "duel --set evasion.angle=200deg",
-        "angle must lie in .*180. .deg., got 200deg",
-    ),
-    ("duel --level steps", "no such option --level; use --set level="),
-    ("duel --set start.pursuer_offset=inf", "pursuer_offset.*inf"),
-    (
-        "duel --set evasion.release_distance=0.5",
-        "release_distance must exceed.*0.5",
-    ),
-    ("duel --robot talos", "robot must be one of nao.*talos"),
-    ("theory plan --role pursuer --bearing nan", "bearing.*nan"),
-    ("theory plan --role evader", "missing option --bearing"),
-    ("theory plan --bearing 1", "missing option --role"),
-    ("run unicyles", "unicyles.*did you mean unicycles"),
-    ("thery", "the command must be one of.*did you mean theory"),
-    ("study tournament --by sed --workers 1", "by or value.*sed"),
-]
-
-
-@pytest.mark.parametrize(("line", "message"), BAD)
-def test_bad_input_is_refused_in_one_line(
-    line: str, message: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    result = run(*line.split())
-    assert result.exit_code == 2
-    said = result.stderr.strip().splitlines()
-    lines = [line for line in said if "compiling" not in line]
-    assert len(lines) == 1
-    assert re.search(message, lines[0]), lines[0]
-    assert not list(tmp_path.iterdir())
-
-
 ERRORS = [
     (PlanError("speed must"), 2, "stepaside: speed must"),
     (ModuleNotFoundError("", name="daqp"), 2, "stepaside[mpc]"),
@@ -153,50 +112,6 @@ def test_each_expected_error_is_one_line_with_its_status(
         result = run("doctor")
     (line,) = result.stderr.strip().splitlines()
     assert words in line and result.exit_code == status and not result.stdout
-
-
-@pytest.mark.parametrize("path", ["rooms/opne.toml", "roms/open.toml"])
-def test_a_misspelt_path_is_refused_with_the_nearest(
-    path: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "rooms").mkdir()
-    (tmp_path / "rooms" / "open.toml").touch()
-    result = run("run", "room", path)
-    assert result.exit_code == 2
-    assert re.search(
-        f"no file {path}; did you mean (open.toml|rooms)", result.stderr
-    )
-
-
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        ("speed = 3", "unknown entry speed"),
-        (
-            "[gait]\nspeeed = 0.1",
-            r"unknown entry gait\.speeed; did you mean gait.speed",
-        ),
-        (
-            "[gait]\nspeed = 'fast'",
-            r"gait.speed must lie in .* \[m/s\], got 'fast'",
-        ),
-        ("[gait]\ncom_height = 0.28", "0.28 m; it reaches at most 0.2"),
-        ("[gait]\nstride = 9", r"stride must be at most 0.\d+ \[m\].*got 9"),
-        ("[physics]\ntick = 0.005", "whole multiple.*0.005"),
-        ("seed = ", "Invalid value"),
-    ],
-)
-def test_bad_configuration_is_refused(
-    text: str, message: str, tmp_path: Path
-) -> None:
-    file = tmp_path / "duel.toml"
-    file.write_text(text)
-    output = tmp_path / "run"
-    result = run("duel", "--config", str(file), "--output", str(output))
-    assert result.exit_code == 2
-    assert re.search(message, result.stderr), result.stderr
-    assert not output.exists()
 
 
 def test_interrupted_duel_reports_its_run(

@@ -11,6 +11,7 @@ from click.testing import CliRunner
 from stepaside.cli.command_list import all_commands
 from stepaside.cli.main import main
 from stepaside.cli.options import output_file
+from stored_values import compare_stored
 
 SCREEN = 50  # lines
 MOST = 16  # options, with --set, --config, --settings, --output and --json
@@ -29,53 +30,24 @@ def test_an_output_without_suffix_gets_the_first_one(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("name", all_commands())
-def test_the_help_of_a_command_fits_one_screen(name: str) -> None:
+def test_options_are_those_that_are_stored_and_their_help_fits_one_screen(
+    name: str,
+) -> None:
     shown = CliRunner().invoke(main, [*name.split(), "--help"]).stdout
     assert shown.count("\n") <= SCREEN
     assert len(options_of(name)) <= MOST
     for option in options_of(name):
         assert option.help and len(option.help) > 5, option.opts
         assert "{" not in option.help, option.opts
-
-
-@pytest.mark.parametrize(
-    ("words", "near"),
-    [("dule", "duel"), ("theory crcle", "circle"), ("duel --sed 1", "seed")],
-)
-def test_an_unknown_name_suggests_the_nearest(words: str, near: str) -> None:
-    result = CliRunner().invoke(main, words.split())
-    assert result.exit_code == 2
-    assert near in result.stderr and result.stderr.count("\n") == 1
-
-
-@pytest.mark.parametrize(
-    ("given", "near"),
-    [
-        ("gait.strid=1", "gait.stride"),
-        ("stride=0.03", "gait.stride"),
-        ("person.sped=1", "person.speed"),
-    ],
-)
-def test_an_unknown_setting_names_similar_ones(given: str, near: str) -> None:
-    result = CliRunner().invoke(main, ["duel", "--set", given])
-    assert result.exit_code == 2
-    assert near in result.stderr and result.stderr.count("\n") == 1
-
-
-@pytest.mark.parametrize(
-    ("given", "words"),
-    [
-        ("gait.stride", "PATH=VALUE"),
-        ("evasion.saturated=yes", "true or false"),
-        ("evasion.saturated=1", "true or false"),
-        ("gait.stride=true", "gait.stride must lie"),
-        ("gait.horizon=2.5", "gait.horizon"),
-        ("evader.strategy=nobody", "nobody"),
-    ],
-)
-def test_a_bad_value_is_refused_by_its_setting(given: str, words: str) -> None:
-    result = CliRunner().invoke(main, ["duel", "--set", given, "--json"])
-    assert result.exit_code == 2 and words in result.stderr
+    found: list[str] = []
+    for each in all_commands()[name].params:
+        known = isinstance(each.default, int | float | str | tuple | Path)
+        found.append(
+            f"{each.opts} {each.secondary_opts} {each.type.to_info_dict()} "
+            f"{(known and each.default) or None} {each.metavar} "
+            f"{each.multiple} {each.required}"
+        )
+    compare_stored("options.json", name, found)
 
 
 def test_list_of_commands_imports_nothing() -> None:

@@ -1,7 +1,6 @@
 """Test the commands circle, unicycles and map."""
 
 import json
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -65,12 +64,3 @@ def test_map_names_the_worst_start() -> None:
     )
     again = loads(unicycles, words)
     assert again["closest_distance_m"] == pytest.approx(low, abs=1e-6)
-
-
-def test_figure_that_cannot_be_written_is_refused_first(
-    tmp_path: Path,
-) -> None:
-    for name in ("game.txt", "game.png/x.txt"):
-        result = run(unicycles, f"--figure {tmp_path / name}")
-        assert result.exit_code == 2 and "--figure" in result.stderr
-    assert not list(tmp_path.iterdir())

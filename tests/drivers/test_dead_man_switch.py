@@ -8,7 +8,6 @@ from pathlib import Path
 
 import pytest
 
-from stepaside.cli.main import main
 from stepaside.drivers.dead_man_switch import (
     FIRST,
     REPEAT,
@@ -86,22 +85,3 @@ def test_a_gamepad_lets_the_robot_walk_while_a_button_is_held(
     os.close(writer)
     assert "is gone" in pad.released()
     pad.close()
-
-
-@pytest.mark.parametrize(
-    ("words", "said"),
-    [
-        (
-            "lola:x --dead-man key",
-            "requires a robot without a chest button",
-        ),
-        ("ros2:/x --dead-man foot", "must be key, gamepad, gamepad:"),
-    ],
-)
-def test_an_invalid_switch_is_refused(
-    words: str, said: str, capsys: pytest.CaptureFixture[str]
-) -> None:
-    with pytest.raises(SystemExit) as left:
-        main(["play", *words.split()])
-    assert left.value.code == 2
-    assert said in capsys.readouterr().err

@@ -172,23 +172,6 @@ def test_without_a_repeated_game_channels_are_absent_and_said_to_be(
     assert not any("effort" in column for column in columns)
 
 
-@pytest.mark.parametrize(
-    ("words", "message"),
-    [
-        (["-o", "run.ulog"], "-o must end in .html"),
-        (["-o", "a.csv", "-o", "./a.csv"], "must name another file"),
-    ],
-)
-def test_bad_words_are_refused_in_one_line(
-    folder: Path, words: list[str], message: str
-) -> None:
-    before = sorted(folder.parent.iterdir())
-    result = CliRunner().invoke(main, ["show", str(folder), *words])
-    assert result.exit_code == 2
-    assert message in result.stderr and result.stderr.count("\n") == 1
-    assert sorted(folder.parent.iterdir()) == before
-
-
 def test_an_incomplete_run_is_refused_and_leaves_nothing(
     folder: Path, tmp_path: Path
 ) -> None:

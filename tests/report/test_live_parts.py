@@ -8,6 +8,7 @@ import pytest
 
 pytest.importorskip("viser", reason="viser is not installed")
 
+from flows.running import until  # noqa: E402
 from stepaside.arena import Room  # noqa: E402
 from stepaside.core.errors import (  # noqa: E402
     ConfigurationError,
@@ -95,3 +96,18 @@ def test_an_invalid_reset_leaves_the_game_alone(session: LiveSession) -> None:
     assert session.game is game and session.settings is settings
     session.reset()
     assert session.world.time == 0.0 and session.generation == 2
+
+
+def test_a_game_that_fails_stops_until_it_is_reset(
+    session: LiveSession, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(_: object) -> None:
+        raise ConfigurationError("the motor burnt")
+
+    with monkeypatch.context() as patch:
+        patch.setattr("stepaside.games.recorded_game.RecordedGame.tick", fail)
+        session.running = True
+        until(lambda: session.error)
+        assert session.error == "the motor burnt" and not session.running
+    session.reset()
+    assert session.error is None and not session.running

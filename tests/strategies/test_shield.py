@@ -15,10 +15,12 @@ from stepaside.strategies import (
     ShieldedStrategy,
     ShieldSettings,
     StandStill,
+    Walk,
 )
 from stepaside.strategies.body_departure import BodyDeparture
 from stepaside.strategies.shield import TemplatePoint, shield_model
 from stepaside.strategies.velocity_set import VelocitySet
+from stored_values import compare_stored, summed
 
 LIMITS = Limits(0.1, 0.2, 0.04, 0.5)  # 0.08 m/s of gait time
 CONTACT = 0.3  # [m]
@@ -68,6 +70,26 @@ def test_motion_of_a_start_is_held_for_a_period_from_its_first_step() -> None:
             until = 1.5 - 0.5 + 2.0 if i > 2 else inf
             assert memory.held.until == pytest.approx(until)
     assert len(numbers) == 4 and len(set(numbers)) == 1
+
+
+@pytest.mark.parametrize("legs", [None, LEGS])
+def test_decisions_by_old_sightings_are_those_that_are_stored(
+    legs: VelocitySet | None,
+) -> None:
+    strategy = ShieldedStrategy(Walk(bearing=0.4), PERSON, BODY)
+    memory, found = strategy.begin(), []
+    for i in range(12):
+        time, moving = 0.25 * i, 3 < i < 9
+        away = 1.1 - (time - 0.1) * SPEED
+        knowledge = known(time, away, bearing=0.3, age=0.1, moving=moving)
+        if legs:
+            limits = replace(LIMITS, velocities=legs)
+            knowledge = replace(knowledge, limits=limits)
+        intent, memory = strategy.decide(knowledge, memory)
+        assert memory.rows[-1].time == pytest.approx(time - 0.1)
+        found += [*summed([intent, memory.course, memory.stands_until])]
+        found += [f"{memory.guarded} {memory.certified} {memory.command}"[:30]]
+    compare_stored("decisions.json", f"shield, {legs is None}", found)
 
 
 def test_certificate_begins_when_the_heading_of_the_person_is_known() -> None:

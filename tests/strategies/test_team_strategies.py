@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 from itertools import permutations
-from math import atan2, hypot, pi
+from math import atan2, cos, hypot, pi, sin
 from typing import Any
 
 import numpy as np
@@ -103,6 +103,16 @@ def test_the_pincer_closes_from_both_sides() -> None:
     assert heading(Pincer(), right) == pytest.approx(-heading(Pincer(), left))
     near = known("r1", r2=(0.0, -1.0), b1=(0.6, 0.1))
     assert heading(Pincer(), near) == pytest.approx(atan2(0.1, 0.6))
+
+
+def test_a_pursuer_turns_away_from_mates_and_halts_behind_a_near_one() -> None:
+    far = {"b1": (3.0, 0.0)}
+    aim = heading(Pincer(), known("r1", r2=(-0.2, 0.1), **far))
+    aside = known("r1", r2=(0.1, 0.4), **far)
+    assert heading(Pincer(), aside) < aim - 0.5
+    for bearing, walks in ((0.0, False), (1.2, True)):
+        near = known("r1", r2=(0.1 * cos(bearing), 0.1 * sin(bearing)), **far)
+        assert Pincer().decide(near, Pincer().begin())[0].walks == walks
 
 
 def test_an_evader_between_two_pursuers_leaves_through_the_gap() -> None:
