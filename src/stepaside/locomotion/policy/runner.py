@@ -121,16 +121,16 @@ class PolicyNetwork:
     def evaluate(
         self, observation: Array, memory: Memory
     ) -> tuple[Array, Memory]:
-        """Return action and new recurrent states.
+        """Return action, which the next one changes, and recurrent states.
 
         ``observation``: Shape (width of the input,).
         """
-        binding, observed, states, found, after = self._bound
-        observed[:] = observation
+        observed, action, states, after, binding = self.arrays
+        if observation is not observed:
+            observed[:] = observation
         for state, before in zip(states, memory, strict=True):
             state[:] = before
         self._session.run_with_iobinding(binding)
-        action: Array = found.astype(np.float64)
         # most often it is
         if not action.dot(action) < 0.5 * LARGEST_ACTION**2:
             self._check(action)
@@ -147,10 +147,10 @@ class PolicyNetwork:
             )
 
     @cached_property
-    def _bound(self) -> tuple[Any, ...]:
+    def arrays(self) -> tuple[Any, ...]:
         """Arrays bound to the session; to pass them takes a third longer.
 
-        The binding, observation and states before, action and states after.
+        Observation, action, states before and after, and the binding.
         """
         # Networks may leave sizes of outputs open: a run shows them.
         feed = {port.name: port.zeros() for port in self._inputs}
@@ -164,8 +164,8 @@ class PolicyNetwork:
                 place = array.__array_interface__["data"][0]
                 bind(name, "cpu", 0, array.dtype.type, array.shape, place)
         given, (action, *after) = list(feed.values()), found
-        flat = given[0].reshape(-1), given[1:], action.reshape(-1), after
-        return binding, *flat
+        flat = given[0].reshape(-1), action.reshape(-1)
+        return *flat, given[1:], after, binding
 
 
 def _shape_of(node: Any) -> TensorShape:
@@ -348,11 +348,17 @@ class PolicyRunner:
         if contract.history_order == "term":
             by_term = np.split(past, np.cumsum(widths)[:-1], axis=1)
             past = np.concatenate([part.ravel() for part in by_term])
-        self._flat, self._frame = past.ravel(), np.zeros(sum(widths))
-        self._history: Array | None = None
+        self._frame: Array
+        self._frame, self._raw = (  # compiled loops take no half floats
+            port.astype(float) if port.dtype == np.float16 else port
+            for port in network.arrays[:2]
+        )
+        if contract.history > 1:
+            self._frame = np.zeros(sum(widths))
+        self._flat, self._history = past.ravel(), np.zeros(0)
         posture = np.array(contract.default_posture, dtype=np.float64)
         self.targets = posture.copy()  # [rad] (joints,)
-        values, self._raw = every * 0.0, np.zeros(contract.action_width)
+        values = every * 0.0
         clock, period = contract.clock, contract.period
         step = spread = settling = 0.0
         waits = silent = False
@@ -395,7 +401,7 @@ class PolicyRunner:
         frame, count = self._frame, self.contract.history
         if count == 1:
             return frame
-        if self._history is None:
+        if not self._history.size:
             self._history = np.tile(frame, (count, 1))
         self._history[:-1] = self._history[1:]
         self._history[-1] = frame
@@ -404,6 +410,8 @@ class PolicyRunner:
 
     def act(self, raw: Array, memory: Memory) -> Array:
         """Return the targets, in [rad], by the output of the network."""
-        self.memory, self._raw[:] = memory, raw
+        self.memory = memory
+        if raw is not self._raw:
+            self._raw[:] = raw
         self._act()
         return self.targets
