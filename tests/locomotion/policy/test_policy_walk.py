@@ -42,16 +42,34 @@ def test_a_saturated_request_turns_at_the_rate_of_the_gain(
     assert template_velocity(request, GAIT) == pytest.approx((0.5, 0.0, turn))
 
 
-def test_standing_is_no_velocity() -> None:
-    request = MotionRequest(STAND, Direction.FORWARD, False)
-    assert template_velocity(request, GAIT) == (0.0, 0.0, 0.0)
+def test_standing_is_no_velocity_and_a_turn_on_the_spot_turns() -> None:
+    for intent, velocity in (
+        (STAND, (0.0, 0.0, 0.0)),
+        (Intent(pi, 0.05), (0.025, 0.0, 0.4 * pi)),
+    ):
+        request = MotionRequest(intent, Direction.FORWARD, False)
+        assert template_velocity(request, GAIT) == pytest.approx(velocity)
 
 
-def test_a_turn_on_the_spot_turns() -> None:
-    request = MotionRequest(Intent(pi, 0.05), Direction.FORWARD, False)
-    assert template_velocity(request, GAIT) == pytest.approx(
-        (0.025, 0.0, 0.4 * pi)
-    )
+def test_contract_and_network_follow_their_files(tmp_path: Path) -> None:
+    pytest.importorskip("onnxruntime")
+    pytest.importorskip("onnx")
+    from legs_robot import nao_on_legs
+    from small_policies import write_policy
+    from stepaside.locomotion.policy.policy_legs import load_policy
+
+    folder = nao_on_legs(tmp_path / "nao", period="0.02")
+    file, path = folder / "robot.toml", folder / "policy.onnx"
+    for period, action in (0.02, 0.0), (0.04, 0.5):
+        text = file.read_text(encoding="utf-8")
+        text = text.replace("period = 0.02", f"period = {period}")
+        file.write_text(text, encoding="utf-8")
+        weights, bias = np.zeros((4, 3)), np.full(4, action)
+        write_policy(path, weights, bias, one=action > 0.0)
+        robot = load_robot(folder)
+        contract, network = load_policy(LegsSettings(str(path)), robot)
+        assert contract.period == period
+        assert network.evaluate(np.zeros(3), ())[0].tolist() == bias.tolist()
 
 
 def test_the_heading_follows_the_gyro_between_decisions(
