@@ -18,36 +18,21 @@ from stepaside.strategies.velocity_set import STILL
 GAIT = GaitSettings(speed=0.5, gain=0.4, stride=0.2)
 
 
-@pytest.mark.parametrize("direction", Direction)
-def test_a_request_becomes_the_velocity_of_the_template(
-    direction: Direction,
-) -> None:
-    """Equations (7) and (8)."""
-    request = MotionRequest(Intent(heading=0.5), direction, False)
-    velocity = template_velocity(request, GAIT)
-    assert velocity == pytest.approx((0.5 * direction.value, 0.0, 0.2))
-    slow = MotionRequest(Intent(0.5, 0.5), direction, False)
-    assert template_velocity(slow, GAIT) == pytest.approx(
-        (0.25 * direction.value, 0.0, 0.2)
-    )
-
-
-@pytest.mark.parametrize("heading", [-3.0, -0.1, 0.5])
-def test_a_saturated_request_turns_at_the_rate_of_the_gain(
-    heading: float,
-) -> None:
-    """Equation (6)."""
-    request = MotionRequest(Intent(heading), Direction.FORWARD, True)
-    turn = 0.4 if heading > 0.0 else -0.4
-    assert template_velocity(request, GAIT) == pytest.approx((0.5, 0.0, turn))
-
-
-def test_standing_is_no_velocity_and_a_turn_on_the_spot_turns() -> None:
-    for intent, velocity in (
-        (STAND, (0.0, 0.0, 0.0)),
-        (Intent(pi, 0.05), (0.025, 0.0, 0.4 * pi)),
+def test_a_request_becomes_the_velocity_of_the_template() -> None:
+    """Equations (7) and (8), and (6) of a saturated request."""
+    ahead, back = Direction.FORWARD, Direction.BACKWARD
+    for intent, direction, saturated, velocity in (
+        (Intent(heading=0.5), ahead, False, (0.5, 0.0, 0.2)),
+        (Intent(heading=0.5), back, False, (-0.5, 0.0, 0.2)),
+        (Intent(0.5, 0.5), ahead, False, (0.25, 0.0, 0.2)),
+        (Intent(0.5, 0.5), back, False, (-0.25, 0.0, 0.2)),
+        (Intent(pi, 0.05), ahead, False, (0.025, 0.0, 0.4 * pi)),
+        (STAND, ahead, False, (0.0, 0.0, 0.0)),
+        (Intent(-3.0), ahead, True, (0.5, 0.0, -0.4)),
+        (Intent(-0.1), ahead, True, (0.5, 0.0, -0.4)),
+        (Intent(0.5), ahead, True, (0.5, 0.0, 0.4)),
     ):
-        request = MotionRequest(intent, Direction.FORWARD, False)
+        request = MotionRequest(intent, direction, saturated)
         assert template_velocity(request, GAIT) == pytest.approx(velocity)
 
 
