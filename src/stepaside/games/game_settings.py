@@ -343,7 +343,7 @@ class GameSettings:
     @property
     def is_of_the_paper(self) -> bool:
         """Whether a duel has the paper's strategies, on an open floor."""
-        pursuer, evader = (self.resolved().player(name) for name in PLAYERS)
+        pursuer, evader = map(self.resolved().player, PLAYERS)
         return (
             self.room is None
             and evader.strategy == EVASION
