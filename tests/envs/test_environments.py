@@ -114,6 +114,7 @@ def test_vector_games_are_those_of_single_environments(name: str) -> None:
         for i, single in enumerate(singles):
             seen, reward, over, truncated, _ = single.step(actions[i])
             assert (ended[i], late[i]) == (over, truncated)
+            assert single.observation_space.contains(seen)
             assert rewards[i] == pytest.approx(reward, abs=1e-9)
             if over or truncated:
                 ends += 1

@@ -23,6 +23,7 @@ from stepaside.cli.main import main
 from stored_values import compare_stored, content_of
 
 viser = pytest.importorskip("viser")
+live_page: Any = pytest.importorskip("stepaside.report.viewer.live_page")
 pytestmark = pytest.mark.usefixtures("blank_figures")
 
 LEFT_OUT = (
@@ -274,24 +275,37 @@ def test_keys_do_what_buttons_do(opened: Callable[[Any], LivePage]) -> None:
     assert session.world.time == 0.0 and not session.driven
 
 
+@pytest.mark.parametrize("runs", [True, False])
 @pytest.mark.parametrize("opens", [True, False])
 def test_the_command_serves_a_page_until_it_is_interrupted(
-    opens: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    opens: bool,
+    runs: bool,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     shown: list[str] = []
+    began: list[bool] = []
 
     def interrupted(_: float) -> None:
         raise KeyboardInterrupt
 
     monkeypatch.setattr("webbrowser.open", shown.append)
     monkeypatch.setattr("stepaside.cli.view.sleep", interrupted)
+    start = live_page.Page.start
+
+    def note(page: Any) -> None:
+        began.append(page.session.running)
+        start(page)
+
+    monkeypatch.setattr(live_page.Page, "start", note)
     file = tmp_path / "walk.toml"
     file.write_text('game = "walk"\n')
     port = 8200 + os.getpid() % 1000
     words = ["view", str(file), "--port", str(port)] + ["--no-open"][opens:]
+    words += ["--no-run"][runs:]
     done = CliRunner().invoke(main, words)
     assert done.exit_code == 0, done.output
     (address,) = re.findall(r"serving at (\S+); press", done.output)
     assert address.startswith("http://127.0.0.1:")
-    assert shown == [address][: int(opens)]
+    assert shown == [address][: int(opens)] and began == [runs]
     assert "saved runs remain" in done.stderr

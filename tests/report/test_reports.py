@@ -160,6 +160,7 @@ def test_a_picture_of_a_film_is_captioned_as_stored() -> None:
     run = run_of("walk-pushed")
     scene = mujoco.MjvScene(RunScene(run).model, 1000)
     index = run.index_at(1.8)
+    assert run.index_at(99.0) == len(run.times) - 1
     places = {n: track.torso[index] for n, track in run.tracks.items()}
     add_layers(scene, overlays_of(run, 9), 1.8, places, colours_of(run))
     found: list[str | float] = [float(scene.ngeom)]

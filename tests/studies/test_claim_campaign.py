@@ -261,5 +261,10 @@ def test_only_the_trial_of_legs_has_their_robot(
     legs = SimpleNamespace(network=str(network))
     settings = SimpleNamespace(evader=SimpleNamespace(legs=legs))
     monkeypatch.setattr(game_claims, "legs_settings", lambda *_: settings)
-    trials = claim_study([3], "robot").cases
+    study = claim_study([3], "robot")
+    trials = study.cases
+    keys = {study.key_of(trial) for trial in trials}
+    network.write_bytes(b"another")
+    again = claim_study([3], "robot")
+    assert len(keys - {again.key_of(trial) for trial in trials}) == 1
     assert [trial.job for trial in trials if trial.legs] == [LEGS]

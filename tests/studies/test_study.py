@@ -239,6 +239,7 @@ def test_dask_replaces_a_killed_worker(tmp_path: Path) -> None:
 
 
 def threads(workers: int | None) -> Executor:
+    assert workers == 2
     return ThreadPoolExecutor(workers)
 
 
