@@ -55,4 +55,4 @@ def test_interruption_anywhere_else_is_one_line() -> None:
     result = CliRunner().invoke(group, ["x"])
     assert result.exit_code == 130
     message = result.stderr.strip()  # without the newline after ^C
-    assert "partial output discarded" in message and "\n" not in message
+    assert "half-written files are" in message and "\n" not in message

@@ -96,7 +96,7 @@ ERRORS = [
     (OSError(13, "Permission denied", "a.toml"), 2, "a.toml: permission"),
     (OSError("broken pipe of links"), 2, "stepaside: broken pipe of links"),
     (BrokenExecutor(), 2, "a worker process was killed"),
-    (KeyboardInterrupt(), 130, "interrupted; partial output discarded"),
+    (KeyboardInterrupt(), 130, "interrupted; half-written"),
 ]
 
 

@@ -160,11 +160,7 @@ def test_players_act_in_turn_before_physics() -> None:
     ("error", "outcome", "said"),
     [
         (ReachError("too short"), Outcome.UNREACHABLE, "b lost its footing"),
-        (
-            StrategyError("KeyError"),
-            Outcome.FAILED,
-            "b's strategy failed",
-        ),
+        (StrategyError("Key"), Outcome.FAILED, "b's strategy failed"),
     ],
 )
 def test_a_player_that_fails_ends_a_game_which_is_recorded(

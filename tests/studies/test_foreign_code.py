@@ -9,7 +9,6 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-from stepaside import duel, run_game
 from stepaside.cli.main import main
 from stepaside.robots.description import load_robot
 
@@ -71,10 +70,12 @@ def test_a_strategy_that_fails_later_ends_its_game_in_words(
 ) -> None:
     name = strategy(tmp_path, decide=LATE.format(code))
     reason = "SystemExit" if "exit" in code else "ZeroDivision"
-    run = run_game(duel(duration=4.0, evader=name, level=level))
-    assert run.outcome.value == "failed"
-    assert "evader's strategy failed" in run.message
-    assert reason in run.message
+    words = f"duel --json --duration 4 --set level={level} --strategy {name}"
+    done = CliRunner().invoke(main, words.split())
+    found = json.loads(done.stdout)
+    assert found["outcome"] == "failed" and done.exit_code == 1
+    assert "evader's strategy failed" in found["message"]
+    assert reason in found["message"] and "(own.py, line 14)" in done.stdout
 
 
 PRINTS = (

@@ -116,7 +116,8 @@ class LazyGroup(click.Group):
                 _refuse(f"{file}{(error.strerror or str(error)).lower()}")
             except (click.Abort, KeyboardInterrupt):
                 click.echo(
-                    "stepaside: interrupted; partial output discarded",
+                    "stepaside: interrupted; half-written files are "
+                    "discarded, finished ones and records stay",
                     err=True,
                 )
                 sys.exit(interrupted_status())

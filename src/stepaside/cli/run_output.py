@@ -100,3 +100,5 @@ def finish_run(
             if folder is None
             else f"the run so far is saved in {folder}"
         )
+    if run.outcome is Outcome.FAILED:
+        raise SystemExit(1)

@@ -108,7 +108,7 @@ def study(
     rows = run.table() if run.finished else []
     if as_json:
         print_json({"planned": run.total, "done": run.finished, "rows": rows})
-    else:
+    elif rows:
         echo(study_table(rows, made.by, made.values))
     if figure is not None and run.completed:
         from ..report.study_figures import draw_study

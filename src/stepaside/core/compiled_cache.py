@@ -55,7 +55,7 @@ def _disk_cache() -> Any:
                 flush()
                 found = None
             if found is None:
-                _tell_once("compiling for this machine, once: some seconds")
+                _tell_once("compiling this part, once: some seconds")
             return found
 
         def save_overload(self, signature: Any, data: Any) -> None:

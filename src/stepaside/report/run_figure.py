@@ -3,6 +3,7 @@
 from collections.abc import Callable, Sequence
 from functools import partial
 from itertools import combinations
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -84,7 +85,11 @@ def _title(run: Run) -> str:
         return f"Play of the {settings.role} over {settings.language}"
     if run.game == "experiment":
         return f"Experiment {settings.source}"
-    return f"{run.game.capitalize()}, seed {settings.seed}"
+    title = f"{run.game.capitalize()}, seed {settings.seed}"
+    robots = {n: Path(settings.player(n).robot).name for n in settings.robots}
+    if len({*robots.values()}) < 2:
+        return title
+    return f"{title} ({', '.join(map(' '.join, robots.items()))})"
 
 
 def _layout_of(run: Run) -> tuple[list[str], list[float], dict[str, Draw]]:
@@ -364,12 +369,13 @@ def draw_runs(runs: Sequence[Run], file: AnyPath) -> None:
     the headings, with theory dotted; of walks, tilt and speed.
 
     Args:
-        runs: The runs; each has its own line style, and its own colour if
-            they are no plays, whose colours are those of the players.
+        runs: The runs; each has its own line style. Paths have the colours
+            of the players if styles suffice to tell the runs apart.
         file: Figure to write; its suffix gives the format.
     """
     walks = all(len(run.players) == 1 for run in runs)
     plays = all(run.game == "play" for run in runs)
+    by_player = plays or (not walks and len(runs) <= len(LINES))
     turned = any(run.has_orientation for run in runs)
     rows = ["pd", "pa"] if turned or walks else ["pd"]
     heights = [1.9] * len(rows) if len(rows) > 1 else [3.6]
@@ -378,8 +384,9 @@ def draw_runs(runs: Sequence[Run], file: AnyPath) -> None:
     for number, run in enumerate(runs):
         line, colour = LINES[number % len(LINES)], RUNS[number % len(RUNS)]
         colours = dict.fromkeys(run.tracks, colour)
-        if plays:
+        if by_player:
             colours = colours_of(run)
+        if plays:
             colour = colours[run.settings.role]
         look: dict[str, Any] = {"ls": line, "lw": 1.1}
         for name, track in run.tracks.items():

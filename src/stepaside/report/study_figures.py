@@ -4,7 +4,12 @@ from collections.abc import Iterable, Mapping, Sequence
 from string import ascii_letters as LETTERS
 from typing import Any, NamedTuple
 
+from matplotlib.transforms import ScaledTranslation
+
 from ..core.errors import AnyPath
+from ..core.setting import entries_of
+from ..games.game_settings import GameSettings
+from ..games.player_settings import PlayerSettings
 from ..locomotion.policy.velocity_response import AXES, VelocityResponse
 from .figure_style import (
     LIGHT,
@@ -61,7 +66,9 @@ def draw_curves(
     for number, (title, curves) in enumerate(shown.items()):
         axis = axes[LETTERS[number]]
         for i, curve in enumerate(curves):
-            _draw_curve(axis, curve, LIGHT.others[i % 5], MARKERS[i % 7])
+            beside = 5.0 * (i - 0.5 * (len(curves) - 1))
+            colour, marker = LIGHT.others[i % 5], MARKERS[i % 7]
+            _draw_curve(axis, curve, colour, marker, beside)
         axis.set(title=title, xlabel=labels[number])
         if number % columns == 0:
             axis.set_ylabel(y)
@@ -70,8 +77,14 @@ def draw_curves(
     save(figure, file)
 
 
-def _draw_curve(axis: Any, curve: Curve, colour: str, marker: str) -> None:
-    """Draw a curve, with bars where its points have intervals."""
+def _draw_curve(
+    axis: Any, curve: Curve, colour: str, marker: str, beside: float
+) -> None:
+    """Draw a curve, with bars where its points have intervals.
+
+    Those stand beside their place, in [pt], so that bars of several curves do
+    not cover each other.
+    """
     points = [tuple(point) for point in curve.points]
     look = {"color": colour, "marker": marker, "ms": 4.0, "lw": 1.2}
     look |= {"label": curve.label} | dict(curve.look)
@@ -81,7 +94,10 @@ def _draw_curve(axis: Any, curve: Curve, colour: str, marker: str) -> None:
         axis.plot(*zip(*points, strict=True), **look)
         return
     at, middle, below, above = zip(*points, strict=True)
-    axis.errorbar(at, middle, (below, above), capsize=3, **look)
+    drawn = axis.errorbar(at, middle, (below, above), capsize=3, **look)
+    shift = ScaledTranslation(beside / 72.0, 0.0, axis.figure.dpi_scale_trans)
+    for artist in drawn.get_children():
+        artist.set_transform(axis.transData + shift)
     if isinstance(at[0], str):
         axis.margins(x=0.5 / max(len(at) - 1, 1))
 
@@ -109,7 +125,7 @@ def draw_study(rows: Rows, by: Sequence[str], path: AnyPath) -> None:
     curves = [Curve(name, points, look) for name, points in lines.items()]
     share = f"{text or label_of(value)} [%]"
     y = share if shares else label_of(value, unit=True)
-    x = label_of(axis, unit=True)
+    x = _label_of_axis(axis)
     names = "" if numeric else "".join({str(row[axis]) for row in rows})
     size = max(5.4, 0.09 * len(names)), 3.0  # names stand side by side
     sizes = {row["number"] for row in rows}
@@ -117,6 +133,17 @@ def draw_study(rows: Rows, by: Sequence[str], path: AnyPath) -> None:
     has_bars = any(any(ends) for x in lines.values() for _, _, *ends in x)
     title = f"95 % intervals over {games} games" if has_bars else ""
     draw_curves({title: curves}, x, y, path, size=size)
+
+
+def _label_of_axis(name: str) -> str:
+    """Return the label of a value or a setting, with its unit."""
+    label = label_of(name, unit=True)
+    for path in (name, name.partition(".")[2]):
+        for kind in (GameSettings, PlayerSettings):
+            entry = entries_of(kind).get(path)
+            if entry and (range := entry.described.range) and not range.whole:
+                return f"{label} [{range.unit}]"
+    return label
 
 
 def _point(

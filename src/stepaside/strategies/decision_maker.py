@@ -2,6 +2,8 @@
 
 from collections.abc import Mapping
 from math import cos, sin
+from pathlib import Path
+from traceback import extract_tb
 from typing import Any
 
 from ..arena import NO_OBSTACLES, ObstacleSet
@@ -159,7 +161,11 @@ def evaluate_strategy(
     try:
         intent, memory = strategy.decide(knowledge, memory)
     except FAILURES as error:
-        raise StrategyError(f"{type(error).__name__}: {error}") from error
+        where = extract_tb(error.__traceback__)[-1]
+        line = f"{Path(where.filename).name}, line {where.lineno}"
+        raise StrategyError(
+            f"{type(error).__name__}: {error} ({line})"
+        ) from error
     if not isinstance(intent, Intent):
         raise StrategyError(f"decide must return an Intent, got {intent!r}")
     limits = knowledge.limits

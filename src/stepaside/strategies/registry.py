@@ -181,7 +181,9 @@ def _parse(text: str, what: str = "strategy") -> _Named:
     if name in STRATEGIES or is_file or (own and own.isidentifier()):
         return _Named(name, arguments, file, own)
     raise ConfigurationError(
-        f"{what} must be one of {', '.join(STRATEGIES)}, FILE.py:NAME or "
+        f"{what} must be FILE.py:NAME, with NAME in the file, got {text!r:.80}"
+        if text.endswith(".py")
+        else f"{what} must be one of {', '.join(STRATEGIES)}, FILE.py:NAME or "
         f"FILE.onnx, got {text!r:.80}{nearest_hint(name, STRATEGIES)}"
     )
 
