@@ -11,7 +11,7 @@ from joint_fakes import STANCE, TICK, FakeRobot, FakeSession, Game, status
 from stepaside.core.errors import ReachError, StrategyError
 from stepaside.drivers.method_thread import SessionLost
 from stepaside.drivers.play_log import PlayTick
-from stepaside.drivers.robot import CameraImage, VelocityLimits
+from stepaside.drivers.robot import REST, CameraImage, VelocityLimits
 from stepaside.drivers.velocity_loop import TemplateController, VelocityLoop
 from stepaside.locomotion.locomotion import Phase
 from stepaside.perception.images import LidarScan
@@ -169,6 +169,9 @@ def of_joints(script: Script) -> Iterator[str | float]:
         if game.loop.ended:
             break
     game.loop.close()
+    assert session.closed and session.sent[-1] is None, "it must end limp"
+    commands = [each for each in session.sent if each is not None]
+    assert all(np.isfinite(each.angles).all() for each in commands)
     yield from (given_up, float(session.closed), str(script.get("closed")))
     yield str([(state.value, sees) for state, sees in shown])
     yield from of_ticks(ticks)
@@ -239,6 +242,7 @@ def of_velocities(script: Script) -> Iterator[str | float]:
         if loop.ended:
             break
     loop.close()
+    assert robot.closed and (robot.asked[-1] == REST or not loop.ended)
     yield from (sum(controllers), str((robot.closed, script.get("closed"))))
     yield from of_ticks(ticks)
     yield from [*summed(robot.asked)][1:]
