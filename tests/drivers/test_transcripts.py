@@ -13,6 +13,7 @@ from stepaside.drivers.method_thread import SessionLost
 from stepaside.drivers.play_log import PlayTick
 from stepaside.drivers.robot import REST, CameraImage, VelocityLimits
 from stepaside.drivers.velocity_loop import TemplateController, VelocityLoop
+from stepaside.drivers.watchdog import Watchdog
 from stepaside.locomotion.locomotion import Phase
 from stepaside.perception.images import LidarScan
 from stepaside.perception.measurement import RobotState, Sighting
@@ -224,7 +225,7 @@ def of_velocities(script: Script) -> Iterator[str | float]:
         robot,  # type: ignore[arg-type]
         controller,
         VelocityLimits(),
-        paced=script.get("paced", True),
+        watchdog=Watchdog(paced=script.get("paced", True)),
         eyes=eyes,
         clock=robot.clock,
         pause=robot.pause,

@@ -19,6 +19,7 @@ from stepaside.drivers.velocity_loop import (
     TemplateController,
     VelocityLoop,
 )
+from stepaside.drivers.watchdog import Watchdog
 from stepaside.perception.measurement import RobotState, Sighting
 from stepaside.planning import Direction, GaitSettings
 from stepaside.strategies import Evasion, Pursuit, Strategy
@@ -31,22 +32,21 @@ REPORTS = [report(PERIOD * i) for i in range(40)]
 
 
 def playing_of(
-    robot: Any, strategy: Any = None, *, paced: bool = True
+    robot: Any, strategy: Any = None, *, paced: bool = True, wait: float = 9.0
 ) -> VelocityLoop:
     return VelocityLoop(
         robot,
         lambda: TemplateController(strategy or Pursuit(), GAIT),
         VelocityLimits(),
-        paced=paced,
+        watchdog=Watchdog(paced=paced),
+        wait=wait,
         clock=robot.clock,
         pause=robot.pause,
     )
 
 
-def played(
-    robot: FakeWalker, ticks: int, *, paced: bool = True
-) -> list[PlayTick]:
-    playing = playing_of(robot, paced=paced)
+def played(robot: FakeWalker, ticks: int, **settings: Any) -> list[PlayTick]:
+    playing = playing_of(robot, **settings)
     return [playing.tick() for _ in range(ticks)]
 
 
@@ -120,10 +120,17 @@ def test_the_clock_of_a_simulator_may_pause_for_any_time() -> None:
     later = [report(PERIOD * i) for i in range(20, 40)]
     robot = FakeWalker([*REPORTS[:20], *400 * [None], *later])
     ticks = played(robot, 440, paced=False)  # 20 s
-    assert ticks[300].state is DrivingState.WALKING
-    assert ticks[-1].state is DrivingState.WALKING
-    with pytest.raises(SessionLost, match="no odometry received yet"):
-        played(FakeWalker([]), 400, paced=False)
+    assert ticks[300].state is ticks[-1].state is DrivingState.WALKING
+    for i, stands in ((70, False), (85, True), (300, True), (439, False)):
+        assert ("clock stands still" in ticks[i].reason) is stands
+
+
+@pytest.mark.parametrize("wait", [3.0, 15.0])
+def test_a_robot_is_waited_for_as_long_as_wanted(wait: float) -> None:
+    robot = FakeWalker([])
+    with pytest.raises(SessionLost, match=f" {wait:g} s: no odometry receive"):
+        played(robot, 400, paced=wait > 9.0, wait=wait)
+    assert robot.now == pytest.approx(500.0 + wait, abs=3.0 * PERIOD)
 
 
 class HungUp(io.StringIO):

@@ -2,6 +2,7 @@
 
 import re
 from math import inf, nan, pi, radians
+from typing import Any
 
 import pytest
 
@@ -14,9 +15,9 @@ from velocity_fakes import report  # isort: skip
 STAMP = 7e8  # robot's clocks need not show our time
 
 
-def settled(*, paced: bool = True) -> Watchdog:
+def settled(**settings: Any) -> Watchdog:
     """A watchdog that has heard enough, the last time at 0.2 s."""
-    dog = Watchdog(paced=paced)
+    dog = Watchdog(**settings)
     for i in range(5):
         said = dog.check(report(STAMP + 0.05 * i), 0.05 * i)
     assert said == ""
@@ -147,9 +148,12 @@ def test_reports_that_fall_behind_the_clock_stop_the_robot() -> None:
     assert stays.endswith("s behind the clock")
 
 
-def test_a_pose_that_stays_while_the_robot_is_to_move_stops_it() -> None:
+@pytest.mark.parametrize(("begins", "late"), [(0.8, 30), (1.27, 40)])
+def test_a_pose_that_stays_while_the_robot_is_to_move_stops_it(
+    begins: float, late: int
+) -> None:
     """Until it changes; a robot that is to stand may stay where it is."""
-    dog, there = settled(), Pose(0.3, 0.0, 0.0)
+    dog, there = settled(start_support=begins), Pose(0.3, 0.0, 0.0)
 
     def checked(first: int, count: int, pose: Pose, moves: bool) -> list[str]:
         return [
@@ -160,8 +164,8 @@ def test_a_pose_that_stays_while_the_robot_is_to_move_stops_it() -> None:
         ]
 
     assert not any(checked(5, 60, there, False))
-    said = checked(65, 40, there, True)
-    assert said[28] == "" and "pose does not change" in said[30]
+    said = checked(64, 41, there, True)
+    assert said[late - 2] == "" and "pose does not change" in said[late]
     assert "pose does not change" in checked(105, 9, there, False)[-1]
     assert checked(114, 4, Pose(0.3, 1e-9, 0.0), False)[-1] == ""
 

@@ -168,12 +168,22 @@ def _open_velocity(
     from ..drivers.robot_session import PREPARE_TIMEOUT
     from ..drivers.scheme_factory import posed_perception
     from ..drivers.velocity_loop import (
+        FORSAKEN,
         PERIOD,
         TemplateController,
         VelocityLoop,
     )
+    from ..drivers.watchdog import Watchdog
 
-    strategy = _strategy_of(settings)
+    strategy, gait = _strategy_of(settings), settings.gait
+    own = f"gait.speed {gait.speed:g} m/s, gait.gain {gait.gain:g} 1/s"
+    if settings.evasion.trigger == "distance":
+        own += f", evasion.safety_radius {settings.evasion.safety_radius:g} m"
+    echo(
+        f"stepaside: plays with {own}; what is not given is that of "
+        f"{settings.robot} (--robot FOLDER takes another's)",
+        err=True,
+    )
     dry_run = settings.dry_run
     limits = robot.limits.within(
         settings.max_speed or inf, settings.max_turn or inf
@@ -192,14 +202,18 @@ def _open_velocity(
                 turns_head=robot.head is not None and not dry_run,
             )
         in_python = settings.in_python
+        on_topics = settings.address.startswith(ROS2)
         return VelocityLoop(
             session,
-            lambda: TemplateController(
-                strategy, settings.gait, limits.velocities
-            ),
+            lambda: TemplateController(strategy, gait, limits.velocities),
             limits,
-            paced=paced,
-            source="reports of listen()" if in_python else "odometry",
+            watchdog=Watchdog(
+                paced=paced,
+                source="reports of listen()" if in_python else "odometry",
+                start_support=gait.start_support,
+            ),
+            # On topics the first message is the first connection.
+            wait=settings.wait if on_topics else FORSAKEN,
             eyes=eyes,
         )
     except BaseException:

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from enum import Enum
 from functools import partial
-from math import isfinite
+from math import inf, isfinite
 from time import monotonic, sleep
 
 import numpy as np
@@ -26,6 +26,7 @@ from .watchdog import Watchdog
 PATIENCE = 0.05  # for a report before the last command is repeated, in [s]
 PERIOD = 0.02  # between two reports at least, in [s]
 FORSAKEN = 10.0  # without a report before the session ends, in [s]
+PAUSED = 3.0  # of a simulator's clock before the status line says so, in [s]
 STILL = 1e-6  # velocity below which a robot stands, in [m/s] or [rad/s]
 
 
@@ -122,19 +123,19 @@ class VelocityLoop:
         make_controller: Callable[[], TemplateController],
         limits: VelocityLimits,
         *,
-        paced: bool = True,
-        source: str = "odometry",
+        watchdog: Watchdog,
+        wait: float = FORSAKEN,
         eyes: PosedSight | None = None,
         clock: Callable[[], float] = monotonic,
         pause: Callable[[float], None] = sleep,
     ) -> None:
-        """Start the loop; the robot stands."""
+        """Start the loop; it waits for a first report for a time in [s]."""
         self._session, self._eyes = session, eyes
         self._make_controller = make_controller
         self._controller = make_controller()
         self._ramp = Ramp(limits)
-        self._watchdog = Watchdog(paced=paced, source=source)
-        self._paced, self._clock, self._pause = paced, clock, pause
+        self._watchdog, self._wait = watchdog, wait
+        self._paced, self._clock, self._pause = watchdog.paced, clock, pause
         self._due = clock()  # of the next report
         self._report: RobotState | None = None
         self._wanted = REST
@@ -166,10 +167,12 @@ class VelocityLoop:
             report, self._clock(), moves=not self._session.halted
         )
         # The clock of a simulator may pause for any time.
-        waits = self._paced or self._report is None
-        if waits and self._watchdog.silent > FORSAKEN:
+        longest = FORSAKEN if self._paced else inf
+        if self._report is None:
+            longest = self._wait
+        if self._watchdog.silent > longest:
             raise SessionLost(
-                f"no new report from the robot for {FORSAKEN:g} s: {hindrance}"
+                f"no new report from the robot for {longest:g} s: {hindrance}"
             )
         hindrance = hindrance or released or self._failure
         velocity = self._decide(report, hindrance)
@@ -231,6 +234,10 @@ class VelocityLoop:
             state, reason = DrivingState.WALKING, "opponent detected"
         else:
             state, reason = DrivingState.STANDING, "strategy wants to stand"
+        if not self._paced and not self._leave_reason and self._report:
+            if (stood := self._watchdog.silent) > PAUSED:
+                reason = f"the robot's clock stands still for {stood:.0f} s; "
+                reason += "Ctrl-C ends"
         report = self._report or RobotState(0.0, pose=Pose(0.0, 0.0, 0.0))
         if self._began is None and state is DrivingState.WALKING:
             self._began = report.time

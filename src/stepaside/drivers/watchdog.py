@@ -1,11 +1,14 @@
 """Watchdog of the reports of a robot that follows velocity commands."""
 
 from ..perception.measurement import RobotState, Sighting
+from ..planning import GaitSettings
 from .robot_reports import LEAD, ClockMeter, pose_fault, sighting_fault
 
 ODOMETRY_SILENCE = 0.25  # longest time without odometry, in [s]
 OLDEST = 0.5  # greatest age of the newest sighting, in [s]
-STUCK = 1.5  # exactly the same pose while the robot is to move, in [s]
+# Exactly the same pose while the robot is to move, beyond the time in which a
+# standing robot shifts its weight before its first step, in [s].
+STUCK = 0.7
 WARM_UP = 3  # consecutive valid reports before the robot may move
 
 
@@ -17,17 +20,24 @@ class Watchdog:
     none: it is repeated.
 
     Attributes:
+        paced: Whether the robot's clock runs in real time.
         silent: Time since the newest report, in [s].
     """
 
     def __init__(
-        self, *, paced: bool = True, source: str = "odometry"
+        self,
+        *,
+        paced: bool = True,
+        source: str = "odometry",
+        start_support: float = GaitSettings().start_support,
     ) -> None:
         """Start before the first report of a source.
 
-        A clock that is not paced may pause or run faster than real time.
+        A clock that is not paced may pause or run faster than real time. The
+        pose may stay for the start support of the gait, in [s], and a while.
         """
-        self._paced, self._source = paced, source
+        self.paced, self._source = paced, source
+        self._longest = start_support + STUCK
         self._newest: RobotState | None = None
         self._repeats = False
         self._last: RobotState | None = None  # if it was valid
@@ -66,7 +76,7 @@ class Watchdog:
 
     def _note_silence(self, silent: float) -> None:
         self.silent = silent
-        if self._paced and silent > ODOMETRY_SILENCE:
+        if self.paced and silent > ODOMETRY_SILENCE:
             self._good, self._last = 0, None
             if (newest := self._newest) is not None:
                 self._verdict = f"no {self._source} for {silent:.2f} s"
@@ -82,16 +92,19 @@ class Watchdog:
             return f"{source}: went back in time by {passed:.3f} s"
         if fault := pose_fault(report, last):
             return f"{source}: {fault}"
-        if self._paced and (off := self._meter.fault(report.time, now)):
+        if self.paced and (off := self._meter.fault(report.time, now)):
             return f"{source}: {off}"
         newest = self._newest
         if newest is None or report.pose != newest.pose:
             self._stuck = 0.0
         elif moves:
             self._stuck += report.time - newest.time
-        if self._stuck < STUCK:
+        if self._stuck < self._longest:
             return ""
-        return f"{source}: the pose does not change while the robot is to move"
+        return (
+            f"{source}: the pose does not change while the robot is to move "
+            f"for {self._longest:g} s (gait.start_support + {STUCK:g} s)"
+        )
 
 
 def _unusable(sighting: Sighting | None, now: float) -> str:
