@@ -6,6 +6,7 @@ import sys
 from pathlib import Path
 from types import ModuleType, SimpleNamespace
 from typing import Any
+from unittest.mock import Mock
 
 import pytest
 
@@ -75,8 +76,9 @@ def test_the_detector_reports_a_person_who_comes(
     node = SimpleNamespace(
         create_publisher=publisher, create_subscription=subscription
     )
-    silent = {"init": lambda: None, "spin": lambda node: None}
-    module("rclpy", create_node=lambda name: node, **silent)
+    stopped = Mock(side_effect=EOFError)  # by SIGTERM
+    module("rclpy", create_node=lambda _: node, init=Mock(), spin=stopped)
+    module("rclpy.executors", ExternalShutdownException=EOFError)
     module("geometry_msgs")
     module("geometry_msgs.msg", Pose=pose, PoseArray=SimpleNamespace)
     module("nav_msgs")
