@@ -13,7 +13,6 @@ from joint_fakes import (
     STRATEGY,
     TICK,
     FakeRobot,
-    FakeSession,
     Game,
     status,
     walking,
@@ -21,7 +20,6 @@ from joint_fakes import (
 from stepaside.core.errors import (
     ConfigurationError,
     ModelError,
-    ReachError,
 )
 from stepaside.drivers.joint_motion import (
     HOT,
@@ -58,19 +56,6 @@ def test_a_robot_stands_up_slowly_and_walks_by_its_button() -> None:
     assert [state.value for state in session.robot.shown] == [
         *("limp", "reaching", "ready", "walking")
     ]
-
-
-def test_a_robot_that_is_stiff_at_first_does_not_sag() -> None:
-    """Someone else held it."""
-    game = Game()
-    game.session.changes["status"] = status(stiffness=np.ones(4))
-    angles = game.session.angles.copy()
-    game.play(20)
-    shares = [t.stiffness[1] / 80.0 for t in game.session.sent if t]
-    assert min(shares) > 0.9
-    first = game.session.sent[0]
-    assert first is not None
-    np.testing.assert_array_equal(first.angles[[3, 1, 2]], angles[[3, 1, 2]])
 
 
 def test_a_stiff_robot_keeps_its_posture_if_the_first_image_fails() -> None:
@@ -144,19 +129,6 @@ def test_a_hot_joint_has_half_its_torque() -> None:
     half = 0.5 * (1.0 + MIN_STIFFNESS)
     assert share(0.5 * (WARM + HOT)) == pytest.approx(half)
     assert share(20.0, heat=3.0) == 0.0
-
-
-def test_a_robot_that_stands_by_itself_is_stiff_at_once_and_given_back() -> (
-    None
-):
-    game = Game(FakeSession(stands=True))
-    game.play(60)
-    first = next(t for t in game.session.sent if t is not None)
-    assert first.stiffness[1] == 80.0
-    game.press()
-    game.schemes[-1].fails = ReachError("too short")
-    game.play(3)
-    assert game.session.sent.count(None) == 1
 
 
 def lost(game: Game, said: str) -> None:

@@ -32,6 +32,7 @@ from stepaside.drivers.robot_session import RobotSession
 from stepaside.drivers.velocity_loop import PERIOD
 from stepaside.perception.camera_model import CameraModel
 from stepaside.perception.images import ColourImage
+from stepaside.perception.measurement import RobotState
 from velocity_fakes import SimulatedUnicycle, until
 
 MOUNT = CameraMount(0.1, 0.0, 1.2)
@@ -203,6 +204,11 @@ def test_the_head_follows_the_opponent_and_sightings_are_true(
     camera = RobotCamera(robot, needs_mount=True)
     sight = PosedSight(session, camera, perception, turns_head=True)
 
+    def heard() -> RobotState:
+        new = session.listen(LONGEST)
+        assert new is not None
+        return new
+
     def bearing() -> float:
         dx, dy = np.subtract(walker.person, walker.pose[:2])
         return wrap_angle(atan2(dy, dx) - walker.pose[2])
@@ -210,9 +216,7 @@ def test_the_head_follows_the_opponent_and_sightings_are_true(
     def followed(turn: float) -> bool:
         """Whether head and sighting are where the opponent is."""
         sleep(PERIOD)
-        new = session.listen(LONGEST)
-        assert new is not None
-        report = sight.see(new)
+        report = sight.see(heard())
         session.command(partial(robot.command, 0.0, 0.0, turn))
         seen, away = report.sighting, bearing()
         far = hypot(*np.subtract(walker.person, walker.pose[:2]))
@@ -228,6 +232,11 @@ def test_the_head_follows_the_opponent_and_sightings_are_true(
         followed(0.3)
     until(lambda: followed(0.0))
     assert bearing() < -0.6  # it has turned away, and looks back
+    monkeypatch.setattr(RobotCamera, "hindrance", "no image")
+    until(lambda: sight.see(heard()).hindrance == "no image")
+    robot.look = lambda yaw, pitch: 1 / 0  # type: ignore[assignment]
+    with pytest.raises(SessionLost, match=r"look\(\) of Slow failed: ZeroDiv"):
+        until(lambda: sight.see(heard()) and False)
     camera.close()
     session.close()
     walker.socket.close()

@@ -235,6 +235,24 @@ def test_a_method_that_blocks_halts_the_robot_beside_it(
     session.close()
 
 
+def test_a_method_that_blocks_for_five_seconds_ends_the_session(
+    stuck: Event,
+) -> None:
+    robot, begun, times = ScriptedRobot(), Event(), {"now": 0.0}
+    session = RobotSession(robot, clock=lambda: times["now"])
+    robot.obeys = lambda: stuck.wait() if begun.set() is None else None  # type: ignore[func-returns-value]
+    session.command(partial(robot.command, *WALK))
+    assert begun.wait(LONGEST)
+    for now in (0.2, 0.3, 4.9):
+        times["now"] = now
+        session.halt()
+    until(lambda: "stop" in robot.calls)
+    times["now"] = 5.1
+    with pytest.raises(SessionLost, match="has not returned for 5.10 s"):
+        session.halt()
+    stuck.set()
+
+
 @pytest.mark.parametrize("returns", [True, False])
 def test_a_robot_is_halted_after_a_command_that_returns_late(
     returns: bool, stuck: Event, monkeypatch: pytest.MonkeyPatch
@@ -347,6 +365,7 @@ def test_the_guardian_watches_until_the_last_halt_has_returned() -> None:
 
     robot.stops = stop
     session.command(partial(robot.command, *WALK))
+    until(lambda: WALK in robot.calls)
     session.halt()
     session.close()
     told = guardian.told

@@ -10,39 +10,10 @@ import tomli_w
 
 from stepaside.core.errors import ModelError
 from stepaside.robots.description import RobotDescription, load_robot
-from stored_values import rows_of
+from stored_values import DATA, rows_of
 
 FEET = [f"foot_{i}" for i in range(8)]
-TEXT = f"""
-name = "Toy"
-model = "toy.xml"
-torso = "trunk"
-left_foot = "l"
-right_foot = "r"
-legs = ["left", "right"]
-standing = {{ knee = 0.5, hip = -1 }}
-speed_limits = {{ knee = 4.0 }}
-accent = "red"
-working_limits = {{ knee = [-0.1, 2] }}
-gait = {{ stride = 0.05 }}
-sole = {{ back = -0.05, front = 0.1 }}
-control = {{ method = "mpc" }}
-game = {{ push_unit = 2.0 }}
-sensors = {{ gyro = "g", accelerometer = "a", feet = {FEET} }}
-place = {{ forward = -0.02, reach = 0.9 }}
-[overlay]
-meshes = ["meshes"]
-turn = [0.5, 0.5, -0.5, 0.5]
-soles = [
-  {{ body = "left", place = [1, 2, 3], turn = [1, 0, 0, 0.5] }},
-  {{ body = "right", place = [1, -2, 3], turn = [1, 0, 0, 0] }},
-]
-[overlay.servos.knee]
-stiffness = 50.0
-damping = 0
-torque = 7.0
-armature = 0.01
-"""
+TEXT = (DATA / "toy.toml").read_text("utf-8")
 
 
 Way = list[str | int]

@@ -64,6 +64,12 @@ def in_sole(data: mujoco.MjData, sole: str, point: Array) -> Array:
     return seen
 
 
+@pytest.mark.parametrize("joints", ["", "<joint/>", "<freejoint/>"])
+def test_the_torso_has_one_joint_that_is_free(joints: str) -> None:
+    model = model_with_overlay(joints)
+    assert model.body("trunk").jntnum == 1 and model.nv == 8
+
+
 @pytest.mark.parametrize("sole", ["l_sole", "r_sole"])
 def test_a_sole_is_a_box_over_its_outline(sole: str) -> None:
     model = model_with_overlay()

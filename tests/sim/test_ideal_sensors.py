@@ -93,6 +93,7 @@ def body(x: float, y: float, *, reach: float = 0.4, com: float = 0.27) -> Any:
         (body(2.5, 0.0), False),  # behind the player
         (body(-0.5, 0.0), False),  # behind the eye
         (body(1.0, 0.0, com=0.1), False),  # too low
+        (body(1.0, 0.0, com=0.24), True),  # of about its height
         (body(1.0, 0.3, reach=1.0), True),  # a wide one
     ],
 )

@@ -57,6 +57,24 @@ def test_contract_and_network_follow_their_files(tmp_path: Path) -> None:
         assert network.evaluate(np.zeros(3), ())[0].tolist() == bias.tolist()
 
 
+def test_a_walk_by_headings_decides_at_each_step_another_more_often() -> None:
+    legs = pytest.importorskip("stepaside.locomotion.policy.policy_legs")
+    for intent, time in (
+        (Intent(0.5), GAIT.step_duration),
+        (Intent(velocity=STILL), 0.08),
+    ):
+        assert legs.decision_interval(intent, GAIT) == time
+    assert legs.PolicyWalk.heading_delay == legs.PolicyWalk.pose_delay == 0.0
+    correction, wanted = np.zeros(3), np.zeros(3)
+    for _ in range(1000):  # a robot that is blocked
+        legs.learn(
+            *(np.array([1.0, -1.0, 0.0]), np.zeros(3)),
+            *(np.array([0.1, 0.9]), correction, wanted),
+        )
+    bound = legs.BOUND
+    assert wanted == pytest.approx([1.0 + bound, -1.0 - bound, 0.0])
+
+
 def test_the_heading_follows_the_gyro_between_decisions(
     tmp_path: Path,
 ) -> None:
