@@ -47,10 +47,12 @@ def test_feedback_says_where_a_foot_landed() -> None:
 def test_a_fallen_robot_stops_moving() -> None:
     run, feedback = feeding()
     feedback.state = SimpleNamespace(has_fallen=False)
-    scheme = run.until(FIRST)
+    scheme, aimed = run.until(FIRST), list[Any]()
     before = scheme.joint_targets.copy()
     feedback.state = SimpleNamespace(has_fallen=True)
+    scheme.senses.aim = aimed.append  # type: ignore[assignment,method-assign]
     run.until(FIRST + 0.2)
+    assert aimed == []  # neither does its head
     assert run.phase() is Phase.FALLEN and scheme.walk.plan is None
     np.testing.assert_array_equal(scheme.joint_targets, before)
     steps = len(feedback.steps)

@@ -29,6 +29,7 @@ from stepaside.sim.person_body import (
 )
 from stepaside.strategies.body_departure import BodyDeparture
 from stepaside.strategies.shield import PERSON_REACH
+from stored_values import compare_stored, content_of
 
 NAO = load_robot("nao")
 OWN = settings_from_description(NAO)
@@ -58,6 +59,7 @@ def test_stored_departure_holds_for_a_walk_that_it_was_not_measured_in(
     the feet, and turns with them; feet slip as they turn.
     """
     stored, found = load_departure(NAO, GAITS[gait]), walked(gait)
+    compare_stored("numbers.json", f"departure, {gait}", content_of(found))
     assert stored is not None
     assert found.loss_in(4) <= stored.loss_in(4)
     assert found.loss <= 1.1 * stored.loss

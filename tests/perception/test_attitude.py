@@ -9,6 +9,7 @@ from stepaside.core.constants import GRAVITY
 from stepaside.core.poses import Array
 from stepaside.core.rotations import rotation
 from stepaside.perception.attitude import CALIBRATION, AttitudeFilter
+from stored_values import compare_stored, summed
 
 TICK = 0.004
 GAIN, BIAS_GAIN = 0.5, 0.06  # [1/s], [1/s^2]
@@ -136,3 +137,14 @@ def test_a_gyro_with_two_axes_measures_roll_and_pitch() -> None:
         run(whole, np.array([0.1, -0.2, 0.0]), force(0.0, 0.0), 0.1)
         assert attitude.roll == pytest.approx(whole.roll, rel=1e-9)
         assert attitude.pitch == pytest.approx(whole.pitch, rel=1e-9)
+
+
+def test_random_readings_turn_the_torso_as_stored() -> None:
+    draw, attitude, found = np.random.default_rng(2), stood(0.1, -0.2), []
+    for _ in range(300):
+        felt = force(0.1, -0.2) + draw.normal(0.0, 3.0, 3)
+        pushed = draw.normal(0.0, 1.0, 2).tolist()
+        attitude.update(draw.normal(0.1, 2.0, 3), felt, pushed, TICK)
+        found += [attitude.roll, attitude.pitch, attitude.rate]
+        found.append(float(attitude.turning[0]))
+    compare_stored("numbers.json", "attitude", summed(found), 1e-5)
