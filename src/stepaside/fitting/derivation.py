@@ -56,6 +56,7 @@ LEAN_GAIN = 0.97  # load ratio below which a greater lean is preferred
 # height (feet farther apart slide and twist).
 GREATEST_BY_HIPS = 1.4
 GREATEST_BY_HEIGHT = 0.38
+GREATEST_DIFFERENCE = 0.05  # of ranges on both sides, for messages, in [rad]
 LEAST_SPACING = 1.25  # foot spacing by twice the inner edge of the sole
 # Torque limits of a model are those at the joint, and its joints apply the
 # gains that they are sent; the lower values of NAO's hardware body are
@@ -176,12 +177,14 @@ def _reachable_sizes(
 ) -> tuple[float, RobotSize]:
     """Return the least CoM height in reach, and the size at the greatest."""
     spacing = spacing_of(analysis, sole[3])
-    lowest, highest = _reachable_heights(description, spacing, sole)
+    lowest, highest = _reachable_heights(description, analysis, spacing, sole)
     greatest = max(GREATEST_BY_HEIGHT * highest, LEAST_SPACING * 2.0 * sole[3])
     if spacing > greatest:
         # A narrower stance lifts the CoM; one iteration is enough.
         spacing = greatest
-        lowest, highest = _reachable_heights(description, spacing, sole)
+        lowest, highest = _reachable_heights(
+            description, analysis, spacing, sole
+        )
     reach = description.place.reach
     return lowest, RobotSize(highest, analysis.mass, spacing, sole, reach)
 
@@ -219,6 +222,7 @@ def with_gait(
 
 def _reachable_heights(
     description: RobotDescription,
+    analysis: ModelAnalysis,
     spacing: float,
     sole: tuple[float, float, float, float],
 ) -> tuple[float, float]:
@@ -236,9 +240,33 @@ def _reachable_heights(
         except ReachError as error:
             raise ModelError(
                 f"{description.name} can stand at no height with its feet "
-                f"{spacing:.3f} m apart: {error}"
+                f"{spacing:.3f} m apart: {_uneven_ranges(analysis) or error}"
             ) from error
     return lowest, highest
+
+
+def _uneven_ranges(analysis: ModelAnalysis) -> str:
+    """Return the leg joints whose ranges are farthest from mirror images.
+
+    Empty if all are nearly mirror images.
+    """
+    farthest, text = GREATEST_DIFFERENCE, ""
+    model, axes = analysis.model, analysis.data.xaxis
+    for pair in zip(*(leg.joints for leg in analysis.legs), strict=True):
+        left, right = (model.joint(name) for name in pair)
+        mirrored = axes[left.id] * (-1.0, 1.0, -1.0)
+        ends = right.range
+        if mirrored @ axes[right.id] < 0.0:
+            ends = -ends[::-1]
+        difference = float(np.abs(left.range - ends).max())
+        if difference > farthest:
+            farthest = difference
+            ranges = (
+                f"{j.name!r} has {j.range[0]:.3g} to {j.range[1]:.3g} rad"
+                for j in (left, right)
+            )
+            text = "legs must be mirror images, but " + " and ".join(ranges)
+    return text
 
 
 def shared_sole(analysis: ModelAnalysis) -> tuple[float, float, float, float]:

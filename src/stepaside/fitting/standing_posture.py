@@ -12,6 +12,7 @@ from math import atan2, cos, sin
 import mujoco
 import numpy as np
 
+from ..core.errors import ModelError
 from ..robots.geom_points import geom_points_in_world
 from .model_analysis import ALIGNED, JOINT_TYPES, DetectedLeg, ModelAnalysis
 
@@ -58,7 +59,7 @@ def _range_of(found: ModelAnalysis, name: str) -> tuple[float, float]:
 def knee_limits(found: ModelAnalysis, leg: DetectedLeg) -> tuple[float, float]:
     """Return the range of a knee without the straight leg, in [rad]."""
     name, sign = leg.pitches[1], leg.signs[1]
-    low, high = _range_of(found, name)
+    low, high = least, most = _range_of(found, name)
     straight = straight_of(leg)
     bends = sign * _bends(found, leg)[name] - straight
     bent = sign * (straight + np.copysign(STRAIGHT_MARGIN, bends))
@@ -66,6 +67,13 @@ def knee_limits(found: ModelAnalysis, leg: DetectedLeg) -> tuple[float, float]:
         low = max(low, bent)
     else:
         high = min(high, bent)
+    if low >= high:
+        raise ModelError(
+            f"{found.path}: a knee must bend by more than {STRAIGHT_MARGIN:g} "
+            f"rad, but the range of {name!r} is {least:.3g} to {most:.3g} rad "
+            "(angles of an MJCF are in degrees unless its <compiler> has "
+            'angle="radian")'
+        )
     return round(low, 4), round(high, 4)
 
 
