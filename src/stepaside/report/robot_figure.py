@@ -91,7 +91,10 @@ def _draw_links(
             Polygon(outline, closed=True, fc=LINK, ec="#606a78", alpha=0.25)
         )
     for body in range(2, model.nbody):
-        ends = data.xpos[[body, model.body_parentid[body]]]
+        if model.body_weldid[body] != body:
+            continue  # without a joint, as the frame of a sensor
+        above = model.body_weldid[model.body_parentid[body]]
+        ends = data.xpos[[body, above]]
         axes.plot(ends[:, across], ends[:, 2], color="#404854", lw=1.0)
 
 
