@@ -1,5 +1,6 @@
 """Test that a user's robot is loaded, and an invalid one refused."""
 
+import sys
 from math import nan
 from pathlib import Path
 from typing import Any
@@ -46,6 +47,15 @@ def test_to_stop_is_to_command_zero_where_the_sdk_has_no_other_way(
     assert isinstance(robot, VelocityRobot)
     robot.stop()
     assert vars(robot)["last"] == (0.0, 0.0, 0.0)
+
+
+def test_a_file_that_fails_later_leaves_what_it_was_before(
+    tmp_path: Path,
+) -> None:
+    kind = load_robot_class(robot_file(tmp_path, VALID))
+    with pytest.raises(ConfigurationError, match="fails to run: ZeroDiv"):
+        load_robot_class(robot_file(tmp_path, "1 / 0"))
+    assert vars(sys.modules[kind.__module__])["Robot"] is kind
 
 
 @pytest.mark.parametrize(

@@ -131,6 +131,17 @@ def sighted(peer: Peer, robot: Ros2Robot) -> tuple[float, float]:
     return float(report.sighting.bearing), float(report.sighting.distance)
 
 
+def test_missing_odometry_is_told_once_by_its_name(
+    monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    monkeypatch.setattr("stepaside.drivers.ros2.HINT_AFTER", 0.0)
+    robot = make_robot(RobotRequest("/robot_2", domain=DOMAIN))()
+    robot.open()
+    assert robot.listen() is robot.listen() is None
+    robot.close()
+    assert caplog.text.count("nothing publishes /robot_2/odom") == 1
+
+
 def test_odometry_becomes_a_pose(peer: Peer, robot: Ros2Robot) -> None:
     peer.pose = Pose(1.0, -2.0, 2.5)
     report = heard(peer, robot)
