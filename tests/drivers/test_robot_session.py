@@ -107,6 +107,25 @@ def test_a_session_calls_each_method_in_turn() -> None:
     assert robot.calls == ["open", WALK, "stop", "stop", "close"]
 
 
+@pytest.mark.parametrize(("paced", "within"), [(True, 15.0), (False, 60.0)])
+def test_each_method_has_its_time(
+    paced: bool, within: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    told, run = dict[str, float](), method_thread.MethodThread.run
+
+    def noted(self: Any, method: str, most: float, call: Any = None) -> Any:
+        told[method] = most
+        return run(self, method, most, call)
+
+    monkeypatch.setattr(method_thread.MethodThread, "run", noted)
+    robot = ScriptedRobot()
+    robot.paced = paced
+    session = RobotSession(robot)
+    session.run("prepare", robot_session.PREPARE_TIMEOUT)
+    session.close()
+    assert told == {"open": within, "prepare": 30.0, "close": 2.0}
+
+
 def test_a_dry_run_only_listens() -> None:
     robot = ScriptedRobot()
     session = RobotSession(robot, dry_run=True)

@@ -199,16 +199,6 @@ def test_what_takes_too_long_is_given_up(
     assert machine.frame(seen(longest + 0.1)) is after
 
 
-@pytest.mark.parametrize("name", TO_REST)
-def test_a_robot_that_must_not_go_on_says_why_and_rests(name: str) -> None:
-    changes, word = TO_REST[name]
-    machine = at(SafetyState.WALKING)
-    lasting(machine, LASTING, **changes)
-    assert word in machine.reason
-    machine.halted(2.0)
-    assert machine.state is SafetyState.RESTING
-
-
 @pytest.mark.parametrize(("changes", "word"), TO_STAND.values(), ids=TO_STAND)
 def test_a_robot_that_may_stand_but_not_walk_stops_and_stands(
     changes: dict[str, Any], word: str

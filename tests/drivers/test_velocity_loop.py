@@ -4,7 +4,6 @@ import io
 from math import atan2, hypot, pi
 from typing import Any
 
-import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -104,16 +103,6 @@ def test_an_old_sighting_is_of_where_the_robot_was_then(
     assert told.forward == pytest.approx(-GAIT.speed)
     turn = GAIT.gain * (1.0 if saturated else 0.4)
     assert told.turn == pytest.approx(turn)
-
-
-def test_the_robot_is_led_to_the_template_by_the_ramp() -> None:
-    robot = FakeWalker(REPORTS)
-    ticks = played(robot, 30)
-    assert [t.state for t in ticks[:2]] == 2 * [DrivingState.WAITING]
-    assert ticks[-1].state is DrivingState.WALKING
-    assert robot.asked[-1] == pytest.approx((0.1, 0.0, 0.08))
-    steps = np.abs(np.diff(np.array(robot.asked), axis=0))
-    assert steps.max(axis=0) == pytest.approx((0.025, 0.0, 0.08), rel=0.3)
 
 
 def test_the_clock_of_a_simulator_may_pause_for_any_time() -> None:
