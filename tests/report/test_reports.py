@@ -44,7 +44,7 @@ pytestmark = pytest.mark.xdist_group("stored-games")
 REPORTED = [
     *("duel", "duel-hardware", "duel-mpc", "duel-people", "duel-cameras"),
     *("duel-room", "walk-pushed", "walk-fast", "team-physics", "crowd"),
-    *("cyclic", "room-steps", "duel-steps"),
+    *("cyclic", "room-steps", "duel-steps", "duel-moving", "persons"),
 ]
 WITH_SIGNALS = ("duel-cameras", "walk-pushed")
 
