@@ -127,6 +127,17 @@ def test_signals_are_those_that_are_stored(name: str) -> None:
     compare_stored("reports.json", f"signals of {name}", found, 1e-4)
 
 
+def test_moving_boxes_are_drawn_where_they_were() -> None:
+    run = run_of("duel-moving")
+    scene, room = RunScene(run), run.plan
+    assert room is not None
+    for index in (0, len(run.times) - 1):
+        scene.put(index)
+        place = room.moving[0].place_at(run.times[index])
+        found = scene.data.body("moving box 1").xpos[:2]
+        np.testing.assert_allclose(found, place)
+
+
 def response() -> VelocityResponse:
     """Legs that deliver less than commanded, and drift aside."""
     axes = [

@@ -10,10 +10,11 @@ from click.testing import CliRunner
 
 import stepaside as sa
 from stepaside.cli.main import main
-from stepaside.games.game_settings import duel, read_game
+from stepaside.games.game_settings import duel, read_game, walk
 from stepaside.sim.body_settings import BODIES
 from stepaside.studies import tournament
 from stepaside.studies.person_encounters import LADDER, Encounter
+from stepaside.studies.push_limit import DIRECTIONS, PushTrial, bound_of_push
 from stepaside.studies.study_design import PRESETS
 from stepaside.theory.value import table
 from stepaside.theory.value.two_cars import pursuit_bound
@@ -155,6 +156,15 @@ def test_an_encounter_is_the_game_that_is_stored(
     shown = [met.change_at, settings.duration, person.person, start]
     found = [*content_of([*shown, robot.evasion])]
     compare_stored("claims.json", f"met {reaction} {drawn}", found)
+
+
+def test_bounds_of_pushes_are_those_that_are_stored() -> None:
+    found = [
+        bound_of_push(PushTrial(walk(), direction, phase))
+        for direction in DIRECTIONS
+        for phase in (0.1, 0.4, 0.8)
+    ]
+    compare_stored("claims.json", "bounds of pushes", found)
 
 
 def test_a_preset_is_changed_by_words() -> None:
