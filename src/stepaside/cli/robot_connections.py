@@ -180,8 +180,8 @@ def _open_velocity(
     if settings.evasion.trigger == "distance":
         own += f", evasion.safety_radius {settings.evasion.safety_radius:g} m"
     echo(
-        f"stepaside: plays with {own}; what is not given is that of "
-        f"{settings.robot} (--robot FOLDER takes another's)",
+        f"stepaside: plays with {own}; defaults are those of "
+        f"{settings.robot} (--robot FOLDER takes others)",
         err=True,
     )
     dry_run = settings.dry_run
