@@ -12,6 +12,7 @@ import sys
 import threading
 from collections.abc import Iterator
 from contextlib import suppress
+from hashlib import sha256
 from importlib import import_module
 from pathlib import Path
 
@@ -50,6 +51,19 @@ LONG = (
     *("test_duel", "test_walk_game", "test_seeing", "test_robot_init"),
 )
 BLANK = b"\x89PNG" + bytes(10_000) + b"IEND...."  # a figure
+
+
+@pytest.fixture(scope="session", autouse=True)
+def tables_of_this_code() -> Iterator[None]:
+    """Solve tables of values anew after a change of what solves them."""
+    from stepaside.theory.value import table
+
+    files = sorted(Path(table.__file__).parent.glob("*.py"))
+    digest = sha256(b"".join(each.read_bytes() for each in files)).hexdigest()
+    folder = table.cache_folder() / f"tables-{digest[:16]}"
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(table, "cache_folder", lambda: folder)
+        yield
 
 
 @pytest.fixture(scope="session", autouse=True)
