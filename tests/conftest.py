@@ -56,11 +56,12 @@ BLANK = b"\x89PNG" + bytes(10_000) + b"IEND...."  # a figure
 @pytest.fixture(scope="session", autouse=True)
 def tables_of_this_code() -> Iterator[None]:
     """Solve tables of values anew after a change of what solves them."""
+    from stepaside.core.compiled_cache import cache_folder
     from stepaside.theory.value import table
 
     files = sorted(Path(table.__file__).parent.glob("*.py"))
     digest = sha256(b"".join(each.read_bytes() for each in files)).hexdigest()
-    folder = table.cache_folder() / f"tables-{digest[:16]}"
+    folder = cache_folder() / f"tables-{digest[:16]}"
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(table, "cache_folder", lambda: folder)
         yield

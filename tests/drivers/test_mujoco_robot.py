@@ -92,28 +92,12 @@ STOPS: dict[str, tuple[Fault, str]] = {
         ),
         "accelerometer reading is constant while the legs move",
     ),
-    "late": (
-        lambda report, last: report._replace(sighting=last.sighting),
-        "the sighting of the opponent is 0.5",
-    ),
-    "missing": (
-        lambda report, last: report._replace(sighting=None),
-        "no sighting of the opponent",
-    ),
     "jumping": (slipped, "LKneePitch jumped by 0."),
-    "hindered": (
-        lambda report, last: report._replace(hindrance="battery low"),
-        "battery low",
-    ),
 }
 ENDS: dict[str, tuple[Fault, str]] = {
     "not a number": (
         lambda report, last: report._replace(gyro=np.full(3, np.nan)),
         "gyro must be finite",
-    ),
-    "without forces": (
-        lambda report, last: report._replace(foot_forces=np.full(8, np.nan)),
-        "foot_forces are needed by the paper's walk",
     ),
     "of another unit": (
         lambda report, last: report._replace(

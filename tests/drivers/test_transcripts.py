@@ -24,6 +24,7 @@ from stored_values import DATA, compare_stored, summed
 from velocity_fakes import PERIOD, FakeWalker, report  # isort: skip
 
 PLAYS = tomllib.loads((DATA / "plays.toml").read_text())
+MEASURED = "tilt gyro accelerometer foot_forces joint_velocities".split()
 LEAVING = 150  # ticks after the begin of a walk
 
 
@@ -70,10 +71,7 @@ def reported(script: Script, game: Game) -> None:
     for name in ("stiffness", "temperature", "heat", "current"):
         told = told | {name: np.full(4, told[name])} if name in told else told
     told["pressed"] = (script.share % 0.2 < 0.04) and "pressed" in script
-    session.changes |= script.parts(
-        "", ("tilt", "gyro", "accelerometer", "foot_forces")
-    )
-    session.changes |= script.parts("", ("joint_velocities",)) | {
+    session.changes |= script.parts("", MEASURED) | {
         "status": status(**told) if script.get("button", True) else None,
         "sighting": script.sighting(now),
         "hindrance": "tired" * script.within("hindrance"),

@@ -9,6 +9,7 @@ import pytest
 from stepaside.core.poses import Array
 from stepaside.sim.body_settings import BodySettings
 from stepaside.sim.servos import Servos
+from stored_values import DATA
 
 KP, KV, STALL = 20.0, 0.5, 1.5
 STEP, CYCLE = 0.002, 0.012
@@ -16,23 +17,8 @@ STEP, CYCLE = 0.002, 0.012
 LEAD = KV / np.array([KP, 2 * KP]) / CYCLE
 SPEEDS = np.array([5.0, 2.0])
 # Nothing here has the same number as qpos, as speed and as actuator.
-MODEL = f"""
-<mujoco><option timestep="{STEP}" gravity="0 0 0"/>
-<worldbody>
-<body name="free"><freejoint/><geom size="0.1" mass="1"/></body>
-<body pos="3 0 0"><joint name="first" axis="0 0 1"/>
-<geom size="0.1" pos="0.2 0 0" mass="1"/></body>
-<body pos="5 0 0"><joint name="a" axis="0 0 1"/>
-<geom size="0.1" pos="0.2 0 0" mass="1"/></body>
-<body pos="7 0 0"><joint name="b" axis="0 0 1"/>
-<geom size="0.1" pos="0.2 0 0" mass="1"/></body>
-</worldbody>
-<actuator>
-<position joint="first" kp="7" kv="0.1" forcerange="-9 9"/>
-<position joint="a" kp="{KP}" kv="{KV}" forcerange="-{STALL} {STALL}"/>
-<position joint="b" kp="{2 * KP}" kv="{KV}" forcerange="-{STALL} {STALL}"/>
-</actuator></mujoco>
-"""
+MODEL = (DATA / "servos.xml").read_text("utf-8")
+MODEL = MODEL.format(step=STEP, kp=KP, twice=2 * KP, kv=KV, stall=STALL)
 ACTUATORS = np.array([1, 2])
 QPOS, DOFS = slice(8, 10), slice(7, 9)
 

@@ -16,17 +16,14 @@ from stepaside.studies import tournament
 from stepaside.studies.person_encounters import LADDER, Encounter
 from stepaside.studies.push_limit import DIRECTIONS, PushTrial, bound_of_push
 from stepaside.studies.study_design import PRESETS
-from stepaside.theory.value import table
 from stepaside.theory.value.two_cars import pursuit_bound
 from stored_values import compare_stored, content_of, summed
 
 
 @pytest.fixture(scope="module", autouse=True)
-def coarse_table(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+def coarse_table() -> Iterator[None]:
     """The bound is solved on few cells."""
     with pytest.MonkeyPatch.context() as patch:
-        cache = tmp_path_factory.mktemp("cache")
-        patch.setattr(table, "cache_folder", lambda: cache)
         patch.setattr(tournament, "CELLS", 16)
         pursuit_bound.cache_clear()
         yield

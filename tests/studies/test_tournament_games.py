@@ -16,7 +16,6 @@ from stepaside.studies.tournament import (
     play_pairing,
     play_track,
 )
-from stepaside.theory.value import table
 from stepaside.theory.value import two_cars as tables
 
 SHORT = TOURNAMENT.changed(duration=40 * STEP, seed=3)
@@ -24,11 +23,9 @@ SETTINGS = PairingSettings(SHORT, room=RoomRecipe(discs=1))
 
 
 @pytest.fixture(scope="module", autouse=True)
-def coarse_table(tmp_path_factory: pytest.TempPathFactory) -> Any:
-    """The bound is solved on few cells, and cached for this test only."""
+def coarse_table() -> Any:
+    """The bound is solved on few cells."""
     patch = pytest.MonkeyPatch()
-    folder = tmp_path_factory.mktemp("cache")
-    patch.setattr(table, "cache_folder", lambda: folder)
     patch.setattr(studied, "CELLS", 16)
     tables.pursuit_bound.cache_clear()
     yield
