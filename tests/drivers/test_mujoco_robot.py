@@ -9,7 +9,6 @@ import pytest
 
 from stepaside.drivers.joint_loop import JointLoop
 from stepaside.drivers.joint_motion import motors_of
-from stepaside.drivers.method_thread import SessionLost
 from stepaside.drivers.robot_loader import load_robot_class
 from stepaside.drivers.robot_session import RobotSession
 from stepaside.drivers.safety import SafetyState
@@ -94,18 +93,6 @@ STOPS: dict[str, tuple[Fault, str]] = {
     ),
     "jumping": (slipped, "LKneePitch jumped by 0."),
 }
-ENDS: dict[str, tuple[Fault, str]] = {
-    "not a number": (
-        lambda report, last: report._replace(gyro=np.full(3, np.nan)),
-        "gyro must be finite",
-    ),
-    "of another unit": (
-        lambda report, last: report._replace(
-            joint_positions=np.degrees(report.joint_positions)
-        ),
-        "degrees",
-    ),
-}
 
 
 @pytest.mark.parametrize("fault", STOPS)
@@ -115,18 +102,6 @@ def test_a_sensor_that_fails_stops_the_walk_by_name(
     """The robot stands, within 2.4 s."""
     play.fault, said = STOPS[fault]
     assert said in play.until(SafetyState.STOPPING, 200)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("fault", ENDS)
-def test_reports_that_cannot_be_used_end_the_session_by_name(
-    fault: str, play: Play
-) -> None:
-    """The robot is released."""
-    play.fault, said = ENDS[fault]
-    with pytest.raises(SessionLost, match=said):
-        play.until(SafetyState.STOPPING, 200)
-    assert play.loop.state is SafetyState.LIMP
 
 
 def test_a_torso_that_tilts_is_released(play: Play) -> None:

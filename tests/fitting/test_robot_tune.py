@@ -2,6 +2,7 @@
 
 import re
 import shutil
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -222,3 +223,11 @@ def test_a_check_prints_what_it_finds(
     assert result.exit_code == (0 if passes else 1), result.output
     key = " ".join(["check", kind, *options])
     compare_stored("odd_models.json", key, words_of(result.output))
+
+
+def test_a_missing_force_sensor_is_told() -> None:
+    nao = load_robot("nao")
+    feet = ("none", *nao.sensors.feet[1:])
+    poor = replace(nao, sensors=replace(nao.sensors, feet=feet))
+    found = {f.name: f for f in verification.check_requirements(poor)}
+    assert found["sensors"][1:3] == ("fail", "no none")

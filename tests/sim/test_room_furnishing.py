@@ -6,7 +6,7 @@ import pytest
 
 from stepaside.robots.description import load_robot
 from stepaside.robots.head import load_head
-from stepaside.sim.camera_scene import add_scene
+from stepaside.sim.camera_scene import add_scene, wall_distance
 from stepaside.sim.camera_settings import SceneSettings
 
 HEAD = load_head(load_robot("nao"))
@@ -40,3 +40,11 @@ def test_an_added_camera_has_the_axes_of_its_mount() -> None:
     np.testing.assert_allclose(up, upward, atol=1e-9)
     assert forward[2] == pytest.approx(-np.sin(np.radians(1.2)))
     assert furnished(SceneSettings(walls=0.0))[0].ncam == 0
+
+
+def test_walls_keep_away_from_players_at_their_begin() -> None:
+    """Those within a metre of a wall, or beyond, move it out of sight."""
+    for y, walls in ((1.9, 3.0), (2.1, 5.6), (3.5, 7.0)):
+        found = wall_distance(3.0, [(0.2, -y), (0.1, 0.3)])
+        assert found == pytest.approx(walls)
+    assert wall_distance(0.0, [(9.0, 9.0)]) == 0.0

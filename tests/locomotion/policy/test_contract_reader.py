@@ -52,6 +52,9 @@ def test_holosoma_is_recognised_and_completed(tmp_path: Path) -> None:
     assert contract.command_ranges.forward == (-0.8, 1.0)
     assert contract.command_ranges.turn == (-0.5, 0.5)
     assert reading.sources["stiffness"] == "metadata kp"
+    alone = network_of(tmp_path / "b.onnx", {"kp": "1,2,3"}, 3)
+    with pytest.raises(PolicyError, match="terms is missing"):
+        read(alone, entries=entries).check()
 
 
 def test_mjlab_metadata_give_the_whole_contract(tmp_path: Path) -> None:
