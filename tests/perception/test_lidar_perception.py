@@ -55,6 +55,16 @@ def test_a_wall_is_nobody_but_who_stands_before_it_is_found() -> None:
     assert [d for _, d in people] == [pytest.approx(hypot(2, 0.3), abs=0.06)]
 
 
+def test_a_scan_that_is_turned_finds_the_same() -> None:
+    """Also across the last bin: two bins between returns may be empty."""
+    ranges = np.full(360, np.inf)
+    for n, bins in enumerate(([0, 4, 5], [0, 3, 4], [0, 1, 5], [0, 2, 6])):
+        ranges[np.array(bins) + 80 * n] = n + 1.0
+    turned = [find_people(np.roll(ranges, n)) for n in range(360)]
+    found = [sorted(away for _, away in people) for people in turned]
+    np.testing.assert_allclose(found, [found[0]] * 360)
+
+
 @pytest.mark.parametrize("tilt", [-0.07, 0.0, 0.07])
 def test_a_floor_seen_with_a_wrong_tilt_is_nobody(tilt: float) -> None:
     x, y = np.meshgrid(np.linspace(-8.0, 8.0, 81), np.linspace(-8.0, 8.0, 81))
