@@ -35,6 +35,7 @@ class Point(sa.VelocityRobot):
         self.calls.append("prepare")
     def listen(self):
         self.time += 0.1
+        assert self.time < 20.0, "it ends before"
         step = sa.Pose(*(0.1 * each for each in self.velocity))
         self.pose = self.pose.compose(step)
         place = self.pose.inverse().compose(sa.Pose(1.0, 0.4, 0.0))
@@ -67,6 +68,7 @@ class Joints(MujocoRobot):
     calls = []
     def listen(self):
         report = super().listen()
+        assert report.time < 12.0, "it ends before"
         lost = 1.5 < report.time < 2.2
         return report._replace(sighting=None) if lost else report
     def command(self, targets):

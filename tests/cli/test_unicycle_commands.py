@@ -36,13 +36,8 @@ def loads(command: Any, words: str) -> dict[str, Any]:
     return found
 
 
-@pytest.mark.parametrize(
-    "words",
-    [
-        "--set pursuer_speed=1.2 --set evader_gain=0.8 --angle 70deg",
-    ],
-)
-def test_simulation_reaches_the_closed_form(words: str) -> None:
+def test_simulation_reaches_the_closed_form() -> None:
+    words = "--set pursuer_speed=1.2 --set evader_gain=0.8 --angle 70deg"
     played = loads(unicycles, words)
     assert played["circle"]["direction"] == 1
     theory = loads(circle, words)

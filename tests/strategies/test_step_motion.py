@@ -120,6 +120,7 @@ def test_a_rollout_scores_every_step_and_ends_when_it_is_lost(
         assert found[0] == pytest.approx(score, abs=1e-12)
         assert found[1] == n
     assert (lost > 50) == (penalty == inf)
+    assert required(-0.01, 1.0) > -0.01 >= required(-0.01, 0.05)
 
 
 @pytest.mark.parametrize("seed", range(8))

@@ -27,6 +27,8 @@ def test_rows_are_groups_in_the_order_of_their_first_record() -> None:
     assert rows[0]["fell"] == share_of(1, 3)
     assert rows[0]["far_m"] == mean_of([1.0, 2.0, 6.0])
     assert rows[1]["far_m"] is None
+    (row,) = tabulate([{"who": "a"}, {"who": None}], [], ["who"])
+    assert row["who"] == {"a": share_of(1, 2)}
 
 
 @pytest.mark.parametrize(("count", "number"), [(0, 7), (3, 7), (7, 7)])
