@@ -33,8 +33,8 @@ PUSHES = (
 )
 CROWD = (
     "--value robot.success --value robot.collided --value fell "
-    "--value robot.time_s --value robot.below_0_45_m "
-    "--value robot.below_1_2_m"
+    "--value robot.time_s --value robot.intimate_share "
+    "--value robot.personal_share"
 )
 TEAMS = "--set pursuers=pursuit,assigned,pincer --set evaders=evasion"
 

@@ -55,6 +55,8 @@ LABELS = {
     "goal_at_s": "goal reached at",
     "grid_error_m": "mean difference to a grid of half the cells",
     "intimate_s": "time within 0.45 m",
+    "intimate_share": "share of time within 0.45 m",
+    "personal_share": "share of time within 1.2 m",
     "lost_s": "time without a sighting",
     "misled_s": "time with a wrong bearing",
     "personal_s": "time within 1.2 m",
@@ -75,7 +77,10 @@ def _unit_suffix(name: str) -> str:
 
 def label_of(name: str, *, unit: bool = False) -> str:
     """Return the label of an entry, with its unit in brackets if asked for."""
+    whose, _, last = name.rpartition(".")
     label = LABELS.get(name) or name.removesuffix(_unit_suffix(name))
+    if last in LABELS and whose:
+        label = f"{whose}: {LABELS[last]}"
     label = label.replace("_", " ").strip()
     symbol = unit_of(name)
     return f"{label} [{symbol}]" if unit and symbol else label

@@ -170,8 +170,8 @@ def _play_game(settings: GameSettings) -> Record:
                 f"{name}.success": met.success,
                 f"{name}.collided": met.collisions > 0,
                 f"{name}.time_s": own.goal_at_s if met.success else None,
-                f"{name}.below_0_45_m": met.intimate_s / run.duration,
-                f"{name}.below_1_2_m": met.personal_s / run.duration,
+                f"{name}.intimate_share": met.intimate_s / run.duration,
+                f"{name}.personal_share": met.personal_s / run.duration,
             }
     return record
 

@@ -160,8 +160,8 @@ TABLES = {
         Column("collided", "robot.collided"),
         FELL,
         Column("time to the goal [s]", "robot.time_s/mean", 1),
-        Column("below 0.45 m [%]", "robot.below_0_45_m/mean", 1, 100.0),
-        Column("below 1.2 m [%]", "robot.below_1_2_m/mean", 0, 100.0),
+        Column("below 0.45 m [%]", "robot.intimate_share/mean", 1, 100.0),
+        Column("below 1.2 m [%]", "robot.personal_share/mean", 0, 100.0),
     ),
     "push-methods": of_columns(
         Column("gait", LABEL),
