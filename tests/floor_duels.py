@@ -23,8 +23,6 @@ def play_steps(
     **changes: Any,
 ) -> StrategyTrack:
     """Play a number of steps of two NAO, with changed settings of a duel."""
-    game = duel(
-        **{"level": "steps", "duration": steps * STEP, **changes},
-    )
+    game = duel(**{"level": "steps", "duration": steps * STEP, **changes})
     game = replace(game, room=room).started_at(starts)
     return record_steps(game, {"pursuer": pursuer, "evader": evader})

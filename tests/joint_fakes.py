@@ -14,11 +14,7 @@ from stepaside.drivers.robot import JointRobot, JointTargets
 from stepaside.drivers.robot_reports import plain_report
 from stepaside.drivers.safety import SafetyState
 from stepaside.locomotion.locomotion import Phase, resting_step
-from stepaside.perception.measurement import (
-    RobotState,
-    RobotStatus,
-    Sighting,
-)
+from stepaside.perception.measurement import RobotState, RobotStatus, Sighting
 from stepaside.planning import Foot, GaitSettings
 from stepaside.strategies import Evasion, Strategy
 

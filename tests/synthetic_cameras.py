@@ -19,10 +19,7 @@ from stepaside.perception.floor_map import FloorMap
 from stepaside.perception.gaze import GazeTarget, RoomScan
 from stepaside.perception.images import ColourImage, DepthImage
 from stepaside.perception.measurement import RobotState
-from stepaside.perception.pipeline import (
-    FrameReport,
-    build_perception,
-)
+from stepaside.perception.pipeline import FrameReport, build_perception
 from stepaside.perception.track import Observation, TargetTrack
 from stepaside.robots.description import RobotDescription, load_robot
 from stepaside.robots.head import HeadDescription, load_head

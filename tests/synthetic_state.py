@@ -83,9 +83,7 @@ class FakeEstimator:
 
 
 def stabiliser(
-    method: str = "measured",
-    gains: StabiliserSettings = GAINS,
-    **changes: Any,
+    method: str = "measured", gains: StabiliserSettings = GAINS, **changes: Any
 ) -> tuple[Stabiliser, FakeEstimator]:
     fake: Any = FakeEstimator()
     settings = ControlSettings(method, True, gains)  # type: ignore[arg-type]

@@ -16,14 +16,7 @@ import numpy as np
 import pytest
 
 import stepaside
-from stepaside import (
-    Direction,
-    Foot,
-    GaitSettings,
-    RelativeStart,
-    Run,
-    duel,
-)
+from stepaside import Direction, Foot, GaitSettings, RelativeStart, Run, duel
 from stepaside.arena import Box, MovingBox, Room, load_room
 from stepaside.core.errors import StepAsideError
 from stepaside.core.poses import Pose
@@ -179,10 +172,7 @@ WRITERS: dict[str, tuple[str, Callable[[Any], Any]]] = {
     "merge_results": ("study.sqlite", merge_one),
     "write_page": ("page.html", lambda p: stepaside.write_page(a_run(), p)),
     "draw_run": ("duel.svg", lambda p: stepaside.draw_run(a_run(), p)),
-    "draw_runs": (
-        "both.svg",
-        lambda p: stepaside.draw_runs([a_run()], p),
-    ),
+    "draw_runs": ("both.svg", lambda p: stepaside.draw_runs([a_run()], p)),
     "draw_plan": (
         "plan.svg",
         lambda p: stepaside.draw_plan(a_plan(), "evader", p),

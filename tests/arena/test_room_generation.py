@@ -7,12 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from stepaside.arena import (
-    Disc,
-    Obstacle,
-    RoomRecipe,
-    generate_room,
-)
+from stepaside.arena import Disc, Obstacle, RoomRecipe, generate_room
 from stepaside.arena.room import FARTHEST, NEAREST
 from stepaside.arena.shapes import MovingBox
 from stepaside.core.poses import wrap_angle

@@ -143,10 +143,7 @@ def test_room_survives_a_round_trip_through_a_file(tmp_path: Path) -> None:
         ("height = 3.0", "unknown entry height; there are width"),
         ("obstacles = 3", "obstacles must be an array, got 3"),
         ("obstacles = [3]", "obstacles 1 must be a table"),
-        (
-            "[[obstacles]]\nx = 1\ny = 0",
-            "obstacles 1: missing entry radius",
-        ),
+        ("[[obstacles]]\nx = 1\ny = 0", "obstacles 1: missing entry radius"),
         (
             "[[obstacles]]\nx = 1\ny = 0\nradius = nan",
             "obstacles 1: radius must lie in .*nan",

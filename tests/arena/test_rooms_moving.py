@@ -7,11 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from stepaside.arena import (
-    MovingBox,
-    Room,
-    check_initial_poses,
-)
+from stepaside.arena import MovingBox, Room, check_initial_poses
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Pose
 from stepaside.games import duel

@@ -135,9 +135,7 @@ def test_options_override_the_file_and_the_file_the_defaults(
     assert beside.physics.slope == pytest.approx(pi / 180.0)
 
 
-def test_options_override_presets_and_presets_the_file(
-    file: Path,
-) -> None:
+def test_options_override_presets_and_presets_the_file(file: Path) -> None:
     """The file of a run has every entry, so presets must override it."""
     found = settings(
         f"duel --config {file} --body delayed --set body.delay_cycles=5"

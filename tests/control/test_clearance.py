@@ -82,10 +82,7 @@ def scheme_in(
 ) -> ControlScheme:
     legs: Any = FakeLegs()
     guard = Guard(
-        KnownRoom(room, start),
-        OUTLINE,
-        ManeuverPlanner(GAIT),
-        margin=MARGIN,
+        KnownRoom(room, start), OUTLINE, ManeuverPlanner(GAIT), margin=MARGIN
     )
     return scheme_of(Whim(seed), GAIT, legs, tick=tick, guard=guard)
 

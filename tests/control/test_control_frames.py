@@ -20,9 +20,7 @@ from stepaside.locomotion.zmp.reference_table import (
     ReferenceTable,
 )
 from stepaside.perception.measurement import RobotState, Sighting
-from stepaside.planning import (
-    Foot,
-)
+from stepaside.planning import Foot
 from stepaside.strategies import Knowledge
 
 ANGLE = st.floats(-pi, pi)

@@ -7,9 +7,7 @@ import pytest
 
 from stepaside.arena import Box, Disc, Obstacle, ObstacleSet
 from stepaside.core.poses import Array, Pose
-from stepaside.locomotion.control_settings import (
-    StabiliserSettings,
-)
+from stepaside.locomotion.control_settings import StabiliserSettings
 from stepaside.locomotion.guard import FootstepAdjustment
 from stepaside.planning import (
     CenterState,

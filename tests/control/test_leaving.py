@@ -7,11 +7,7 @@ import pytest
 from fake_robot import GAIT
 from stepaside.arena import Box, ObstacleSet
 from stepaside.core.poses import Pose
-from stepaside.locomotion.guard import (
-    GAINED,
-    Guard,
-    ManeuverClearance,
-)
+from stepaside.locomotion.guard import GAINED, Guard, ManeuverClearance
 from stepaside.locomotion.locomotion import GuardDecision
 from stepaside.planning import (
     Direction,

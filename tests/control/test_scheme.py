@@ -3,14 +3,7 @@
 import numpy as np
 import pytest
 
-from fake_robot import (
-    FIRST,
-    GAIT,
-    STEP,
-    TICK,
-    FakeStrategy,
-    Run,
-)
+from fake_robot import FIRST, GAIT, STEP, TICK, FakeStrategy, Run
 from stepaside.core.poses import Pose
 from stepaside.locomotion.locomotion import Phase
 from stepaside.locomotion.maneuver_walk import SETTLING

@@ -12,10 +12,7 @@ from stepaside.core.errors import StrategyError
 from stepaside.core.poses import Pose
 from stepaside.perception.measurement import Sighting
 from stepaside.planning import Foot
-from stepaside.strategies import (
-    Intent,
-    Knowledge,
-)
+from stepaside.strategies import Intent, Knowledge
 
 PLACE = Pose(1.0, 2.0, 0.5)
 

@@ -47,9 +47,7 @@ def test_excessive_velocity_is_scaled_on_the_same_path(
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
-def test_half_the_speed_halves_the_stride_not_the_turn(
-    sign: float,
-) -> None:
+def test_half_the_speed_halves_the_stride_not_the_turn(sign: float) -> None:
     speed, _ = velocity_limits(GAIT)
     strategy = CommandedVelocity(GAIT)
     walk = step(strategy, sign * 0.5 * speed, 0.1, moving=False)

@@ -13,11 +13,7 @@ import pytest
 from click.testing import CliRunner
 
 from stepaside.cli.main import main
-from stepaside.core.atomic_output import (
-    atomic_draft,
-    check_file,
-    check_folder,
-)
+from stepaside.core.atomic_output import atomic_draft, check_file, check_folder
 from stepaside.core.errors import ConfigurationError, OutputError
 from stepaside.games.game_settings import duel
 from stepaside.games.recorded_game import run_game

@@ -6,13 +6,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from stepaside.core.errors import (
-    StepAsideError,
-)
+from stepaside.core.errors import StepAsideError
 from stepaside.games.game_settings import GameSettings, StartSettings, duel
-from stepaside.planning import (
-    GaitSettings,
-)
+from stepaside.planning import GaitSettings
 from stepaside.sim.physics_settings import PhysicsSettings, SightSettings
 
 

@@ -17,10 +17,7 @@ from joint_fakes import (
     status,
     walking,
 )
-from stepaside.core.errors import (
-    ConfigurationError,
-    ModelError,
-)
+from stepaside.core.errors import ConfigurationError, ModelError
 from stepaside.drivers.joint_motion import (
     HOT,
     MIN_STIFFNESS,

@@ -212,9 +212,7 @@ def test_an_invalid_address_is_refused(address: str, said: str) -> None:
         naoqi.make_robot(RobotRequest(address))
 
 
-def test_a_robot_that_is_not_there_is_named(
-    driver: naoqi.NaoqiRobot,
-) -> None:
+def test_a_robot_that_is_not_there_is_named(driver: naoqi.NaoqiRobot) -> None:
     made = naoqi.make_robot(RobotRequest("tcp://127.0.0.1:1"))()
     with pytest.raises(SessionLost, match=r"tcp://127\.0\.0\.1:1"):
         made.open()

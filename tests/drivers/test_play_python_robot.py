@@ -65,9 +65,7 @@ def start() -> Iterator[Callable[..., Any]]:
     plays: list[subprocess.Popen[str]] = []
 
     def start_one(
-        *options: str,
-        of: Walker | None = None,
-        robot: str = ROBOT,
+        *options: str, of: Walker | None = None, robot: str = ROBOT
     ) -> Any:
         if of is None:
             walkers.append(Walker(*options))

@@ -18,10 +18,7 @@ from simulated_walker import SimulatedWalker
 
 from stepaside.core.poses import Pose, wrap_angle
 from stepaside.drivers.method_thread import SessionLost
-from stepaside.drivers.robot import (
-    CameraImage,
-    CameraMount,
-)
+from stepaside.drivers.robot import CameraImage, CameraMount
 from stepaside.drivers.robot_camera import (
     OLDEST,
     RobotCamera,
@@ -104,9 +101,7 @@ def test_an_image_is_passed_on_once() -> None:
     ],
 )
 def test_an_invalid_image_is_refused_with_the_method(
-    changes: dict[str, Any],
-    said: str,
-    caplog: pytest.LogCaptureFixture,
+    changes: dict[str, Any], said: str, caplog: pytest.LogCaptureFixture
 ) -> None:
     robot = Filming(*[image(**changes)] * 2)
     camera = RobotCamera(robot, needs_mount=True)

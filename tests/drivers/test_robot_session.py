@@ -151,8 +151,7 @@ def test_what_is_no_report_ends_the_session_by_the_name_of_the_method(
     robot.hears = lambda: got
     session = RobotSession(robot)
     with pytest.raises(
-        SessionLost,
-        match=r"listen\(\) of .* a RobotState\(time, pose",
+        SessionLost, match=r"listen\(\) of .* a RobotState\(time, pose"
     ):
         session.listen(1.0)
     session.close()

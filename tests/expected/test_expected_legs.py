@@ -152,14 +152,7 @@ def test_the_reason_why_a_network_cannot_be_read_is_passed_on(
 
 
 @pytest.mark.parametrize(
-    "words",
-    [
-        ("robot", "legs", "inspect"),
-        (
-            "run",
-            "game",
-        ),
-    ],
+    "words", [("robot", "legs", "inspect"), ("run", "game")]
 )
 @pytest.mark.parametrize("kind", ["pipe", "zeros"])
 def test_only_regular_files_are_read(

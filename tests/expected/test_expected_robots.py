@@ -62,9 +62,7 @@ def test_trim_of_another_height_gives_the_right_distance(
 ) -> None:
     """The lowest trim is on the thighs, 0.1 m higher than on the shins."""
     robot = changed_nao(
-        tmp_path / "nao",
-        "model.xml",
-        (f'{SHIN}"accent"', f'{SHIN}"shell"'),
+        tmp_path / "nao", "model.xml", (f'{SHIN}"accent"', f'{SHIN}"shell"')
     )
     summary = stepaside(
         *("duel", "--robot", robot, "--sensing", "cameras", "--json"),

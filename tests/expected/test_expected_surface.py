@@ -29,12 +29,7 @@ def test_a_file_that_is_replaced_keeps_its_mode(tmp_path: Path) -> None:
     figure = tmp_path / "plan.svg"
     figure.write_text("old")
     figure.chmod(0o600)
-    words = (
-        "--role",
-        "evader",
-        "--bearing",
-        "40deg",
-    )
+    words = ("--role", "evader", "--bearing", "40deg")
     done = command("theory", "plan", *words, "--figure", figure)
     assert done.exit_code == 0, done.output
     assert figure.read_text("utf-8") != "old"

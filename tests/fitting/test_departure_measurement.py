@@ -33,10 +33,7 @@ from stored_values import compare_stored, content_of
 
 NAO = load_robot("nao")
 OWN = settings_from_description(NAO)
-GAITS = {
-    "nao": OWN.gait,
-    "fast": replace(PRESETS["fast"], sole=OWN.gait.sole),
-}
+GAITS = {"nao": OWN.gait, "fast": replace(PRESETS["fast"], sole=OWN.gait.sole)}
 
 
 @cache

@@ -13,10 +13,7 @@ from stepaside.fitting.derivation import LEAN_CANDIDATES, least_lean
 from stepaside.fitting.gait_feasibility import JointLoads
 from stepaside.fitting.robot_verification import WalkTrialResult
 from stepaside.games.player_settings import settings_from_description
-from stepaside.robots.description import (
-    RobotDescription,
-    load_robot,
-)
+from stepaside.robots.description import RobotDescription, load_robot
 from stepaside.robots.leg_kinematics import BodyReference, LegKinematics
 
 NAO = load_robot("nao")

@@ -36,10 +36,7 @@ class FormulaExecutor(Executor):
         self._falls = falls
 
     def map(  # type: ignore[override]
-        self,
-        fn: Callable[..., Any],
-        trials: Iterable[LegsTrial],
-        **_: Any,
+        self, fn: Callable[..., Any], trials: Iterable[LegsTrial], **_: Any
     ) -> Iterator[LegsTrialResult | BodyDeparture]:
         """Deliver velocities that are linear in the command."""
         for trial in trials:

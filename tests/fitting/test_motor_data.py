@@ -7,10 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from stepaside.fitting.motor_data import (
-    plausible_torques,
-    published_values,
-)
+from stepaside.fitting.motor_data import plausible_torques, published_values
 
 
 @settings(max_examples=20)

@@ -34,9 +34,7 @@ def test_geoms_without_size_are_removed(tmp_path: Path) -> None:
     assert len(analyse_model(model, []).legs) == 2
 
 
-def test_actuators_of_the_environment_are_removed(
-    tmp_path: Path,
-) -> None:
+def test_actuators_of_the_environment_are_removed(tmp_path: Path) -> None:
     """A body of the world's with motor and sensor: once a crash."""
     model = stranger.mjcf(tmp_path)
     text = model.read_text()

@@ -23,14 +23,8 @@ from stepaside.fitting.motor_data import (
 )
 from stepaside.games import duel, run_game
 from stepaside.games.game_settings import read_game
-from stepaside.games.player_settings import (
-    settings_from_description,
-)
-from stepaside.robots.description import (
-    FILE,
-    RobotDescription,
-    load_robot,
-)
+from stepaside.games.player_settings import settings_from_description
+from stepaside.robots.description import FILE, RobotDescription, load_robot
 from stepaside.robots.tree_compiler import compile_tree
 from stepaside.sim.ground_truth import TrueRobotState
 

@@ -24,11 +24,7 @@ from stepaside.fitting.robot_verification import (
     WalkTrialResult,
 )
 from stepaside.games.player_settings import settings_from_description
-from stepaside.robots.description import (
-    FILE,
-    RobotDescription,
-    load_robot,
-)
+from stepaside.robots.description import FILE, RobotDescription, load_robot
 from stepaside.strategies.body_departure import BodyDeparture
 from stored_values import compare_stored, words_of
 

@@ -11,9 +11,7 @@ import pytest
 
 import vendor_humanoid as stranger
 from stepaside.core.errors import ModelError
-from stepaside.fitting.derivation import (
-    derive,
-)
+from stepaside.fitting.derivation import derive
 from stepaside.fitting.description_writer import write_description
 from stepaside.fitting.model_analysis import (
     DetectedLeg,

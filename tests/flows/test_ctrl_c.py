@@ -65,9 +65,7 @@ def test_a_full_disk_leaves_the_page_that_was_there(
     page = tmp_path / "page.html"
     page.write_text("the page of before")
     said = calls.stepaside(
-        *("show", interrupted, "-o", page),
-        status=2,
-        largest_file=20_000,
+        *("show", interrupted, "-o", page), status=2, largest_file=20_000
     ).err
     assert said.count("\n") == 1 and "could not be written" in said
     assert page.read_text() == "the page of before"

@@ -27,7 +27,7 @@ SHORT = {  # seconds of simulation, where an example takes them
     "train_evader": "open 2",
 }
 SHORTER = {  # what else takes long
-    "study_own_strategy.py": {"range(5)": "range(1, 2)", "=4)": "=1)"},
+    "study_own_strategy.py": {"range(5)": "range(1, 2)", "=4)": "=1)"}
 }
 
 

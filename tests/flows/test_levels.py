@@ -9,12 +9,7 @@ import pytest
 
 import stepaside as sa
 from flows import calls
-from flows.calls import (
-    arena_duel,
-    kept_summary,
-    play_duel,
-    trajectories,
-)
+from flows.calls import arena_duel, kept_summary, play_duel, trajectories
 from flows.circles import PACE, apart, arc, circle
 
 ASIDE = "evasion(safety_radius=100)"
@@ -50,11 +45,7 @@ def folders(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
     levels = ("unicycle", "steps", "physics")
     for level in levels:
         kept_summary(
-            "run",
-            folder / level,
-            folder / "two.toml",
-            "--level",
-            level,
+            "run", folder / level, folder / "two.toml", "--level", level
         )
     return {level: folder / level for level in levels}
 

@@ -278,10 +278,7 @@ def test_keys_do_what_buttons_do(opened: Callable[[Any], LivePage]) -> None:
 @pytest.mark.parametrize("runs", [True, False])
 @pytest.mark.parametrize("opens", [True, False])
 def test_the_command_serves_a_page_until_it_is_interrupted(
-    opens: bool,
-    runs: bool,
-    tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
+    opens: bool, runs: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     shown: list[str] = []
     began: list[bool] = []

@@ -85,9 +85,7 @@ def test_a_plan_follows_the_paper(tmp_path: Path) -> None:
     assert abs(com - zmp).max() < 0.1
 
 
-def test_a_plan_from_python_is_the_plan_of_the_command(
-    tmp_path: Path,
-) -> None:
+def test_a_plan_from_python_is_the_plan_of_the_command(tmp_path: Path) -> None:
     plan = sa.ManeuverPlanner(sa.GaitSettings()).plan(
         radians(BEARING),
         sa.Direction.BACKWARD,

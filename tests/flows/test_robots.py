@@ -8,12 +8,7 @@ from typing import Any
 import pytest
 
 import vendor_humanoid as vendor
-from flows.calls import (
-    check_robot,
-    describe_robot,
-    duel_of_robot,
-    tune_robot,
-)
+from flows.calls import check_robot, describe_robot, duel_of_robot, tune_robot
 
 GRAVITY = 9.81  # [m/s^2]
 LEG_JOINTS = [name for name, *_ in vendor.LEG]

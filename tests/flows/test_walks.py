@@ -86,10 +86,7 @@ def test_mpc_without_a_push_walks_the_plan() -> None:
         sa.run_game(
             sa.walk(
                 duration=4.0,
-                control=sa.ControlSettings(
-                    method=method,
-                    feedback=True,
-                ),
+                control=sa.ControlSettings(method=method, feedback=True),
             )
         )
         for method in ("measured", "mpc")

@@ -8,10 +8,7 @@ import numpy as np
 import pytest
 
 from stepaside.core.poses import Array
-from stepaside.games.forecast import (
-    circle_of_theory,
-    convergence_time,
-)
+from stepaside.games.forecast import circle_of_theory, convergence_time
 from stepaside.games.game_settings import GameSettings, StartSettings, duel
 from stepaside.games.trajectory import cycle_mean
 from stepaside.sim.person_settings import PersonSettings

@@ -243,11 +243,7 @@ def _text(folder: Path) -> Path:
     ("bag_in", "words", "message"),
     [
         (_apart, ("p=/a", "e=/b"), "one frame, got p in map, e in odom"),
-        (
-            _apart,
-            ("p=/a", "e=/c"),
-            "got None in apart: /a, /b",
-        ),
+        (_apart, ("p=/a", "e=/c"), "got None in apart: /a, /b"),
         (_apart, ("p=/a", "e=c"), "e=c must be a frame of apart"),
         (_apart, ("p=/a",), "must be 2 to 32, each as --frame"),
         (_apart, ("p=/a", "p=/b"), "frame of p must be given once"),

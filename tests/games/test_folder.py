@@ -138,9 +138,7 @@ def test_an_unknown_format_is_refused_by_its_number(
     assert "\n" not in message
 
 
-def test_a_changed_byte_is_refused_or_harmless(
-    tmp_path: Path,
-) -> None:
+def test_a_changed_byte_is_refused_or_harmless(tmp_path: Path) -> None:
     """It never changes values that are read, nor raises other errors."""
     run = RUNS["robots"]
     folder = folder_of(tmp_path, run)

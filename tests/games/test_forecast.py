@@ -7,11 +7,7 @@ from typing import Any
 import pytest
 
 from stepaside.core.poses import wrap_angle
-from stepaside.games.forecast import (
-    circle_of_theory,
-    forecast,
-    time_scale,
-)
+from stepaside.games.forecast import circle_of_theory, forecast, time_scale
 from stepaside.games.game_settings import GameSettings, StartSettings, duel
 from stepaside.games.game_starts import with_starts
 from stepaside.games.summary import TheorySummary
@@ -107,9 +103,7 @@ def test_a_mirrored_duel_has_the_same_forecast() -> None:
 
 
 @pytest.mark.parametrize("gain", [0.6, 0.8, 1.2])
-def test_a_circle_too_small_for_two_bodies_is_contact(
-    gain: float,
-) -> None:
+def test_a_circle_too_small_for_two_bodies_is_contact(gain: float) -> None:
     settings = turning(gain)
     circle = circle_of_theory(settings)
     assert circle.distance_m < settings.start.least

@@ -8,10 +8,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from stepaside.core.poses import Array, Pose, wrap_angle
-from stepaside.games.play_conversion import (
-    OdometryPath,
-    PlayedRows,
-)
+from stepaside.games.play_conversion import OdometryPath, PlayedRows
 from stepaside.games.trajectory import Trajectory
 from stepaside.planning import Foot, GaitSettings
 from stepaside.robots.description import load_robot

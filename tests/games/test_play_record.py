@@ -104,9 +104,7 @@ def walked(tmp_path_factory: pytest.TempPathFactory) -> Walked:
 
 
 @pytest.mark.slow
-def test_the_replayed_path_is_the_true_one_up_to_slip(
-    walked: Walked,
-) -> None:
+def test_the_replayed_path_is_the_true_one_up_to_slip(walked: Walked) -> None:
     run, frame = walked.run, walked.frame.inverse()
     true = walked.true[:: round(float(run.times[1]) / 0.012)]
     assert len(run.times) in (len(true), len(true) + 1)

@@ -11,9 +11,7 @@ from legs_robot import nao_on_legs
 from stepaside.games.game import play
 from stepaside.games.game_settings import GameSettings, duel, read_game
 from stepaside.games.players import RobotPlayer
-from stepaside.games.recorded_game import (
-    RecordedGame,
-)
+from stepaside.games.recorded_game import RecordedGame
 from stepaside.locomotion.policy.policy_legs import PolicyWalk
 from stepaside.planning import Direction
 from stepaside.strategies import Intent, Knowledge

@@ -7,12 +7,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from stepaside.arena import (
-    Box,
-    Disc,
-    Polygon,
-    Room,
-)
+from stepaside.arena import Box, Disc, Polygon, Room
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Pose
 from stepaside.games.game_settings import GameSettings, StartSettings, duel

@@ -14,10 +14,7 @@ from stepaside.games.players import RobotPlayer
 from stepaside.games.recorded_game import RecordedGame
 from stepaside.perception.gaze import MAX_YAW, SCAN_SPEED
 from stepaside.perception.pipeline import Perception
-from stepaside.sim.camera_settings import (
-    CameraSettings,
-    ColourSettings,
-)
+from stepaside.sim.camera_settings import CameraSettings, ColourSettings
 from stepaside.sim.person_settings import PersonSettings
 
 RAYS = CameraSettings(colour=ColourSettings(renderer="raycast"))

@@ -101,9 +101,7 @@ def test_a_template_walks_in_path_time() -> None:
 
 
 @pytest.mark.parametrize("bearing", [0.0, 1.5, -3.0])
-def test_the_template_keeps_a_person_at_a_distance(
-    bearing: float,
-) -> None:
+def test_the_template_keeps_a_person_at_a_distance(bearing: float) -> None:
     slow = straight(0.3, bearing=bearing)
     quick = straight(1.6, bearing=bearing)
     assert slow > quick > 0.7

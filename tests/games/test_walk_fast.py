@@ -47,10 +47,7 @@ def test_a_hardware_like_body_walks_as_fast(
     bearing: float, backward: bool
 ) -> None:
     found = walked(
-        body="hardware",
-        bearing=bearing,
-        backward=backward,
-        duration=10.0,
+        body="hardware", bearing=bearing, backward=backward, duration=10.0
     )
     assert found["speed_m_s"] >= 0.23
     for ratio in (found["speed_ratio"], found["yaw_ratio"]):

@@ -69,13 +69,7 @@ def check_recovery(result: Run, heading: float) -> None:
 @pytest.mark.slow
 def test_an_ideal_body_walks_and_estimates_as_planned() -> None:
     """Limits are about 1.5 times the measured errors, a mm or so."""
-    result = run_game(
-        walk(
-            duration=12.0,
-            bearing=0.5,
-            control=STABILISED,
-        )
-    )
+    result = run_game(walk(duration=12.0, bearing=0.5, control=STABILISED))
     found = result.results()
     summary, planning = found["walking"], found["planning"]
     assert found["outcome"] == "completed" and summary["adapted_steps"] == 0

@@ -15,11 +15,7 @@ CYCLES = 12
 )
 def test_an_ideal_body_walks_its_plan(bearing: float, backward: bool) -> None:
     """Within 1 % over whole gait cycles, without feedback."""
-    settings = walk(
-        duration=20.0,
-        bearing=bearing,
-        backward=backward,
-    )
+    settings = walk(duration=20.0, bearing=bearing, backward=backward)
     gait = settings.gait
     cycle = 2.0 * gait.step_duration
     walking = RecordedGame(settings, recorded=False, endless=True)

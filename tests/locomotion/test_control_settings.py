@@ -4,9 +4,7 @@ import pytest
 
 from stepaside.core.errors import ConfigurationError
 from stepaside.games import walk
-from stepaside.locomotion.control_settings import (
-    ControlSettings,
-)
+from stepaside.locomotion.control_settings import ControlSettings
 
 
 @pytest.mark.parametrize("method", ["measured", "mpc"])

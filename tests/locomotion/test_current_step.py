@@ -16,10 +16,7 @@ from stepaside.locomotion.zmp.current_step import (
     shifted_swing,
     zmp_box,
 )
-from stepaside.planning import (
-    Foot,
-    GaitSettings,
-)
+from stepaside.planning import Foot, GaitSettings
 from stepaside.planning.gait_settings import SoleRectangle
 from stepaside.robots.leg_kinematics import BodyReference
 

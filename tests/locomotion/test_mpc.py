@@ -11,9 +11,7 @@ from scipy.optimize import linprog
 
 from reference_plans import KINDS, plan_of, reference_corners
 from stepaside.core.poses import Array
-from stepaside.locomotion.control_settings import (
-    MpcSettings,
-)
+from stepaside.locomotion.control_settings import MpcSettings
 from stepaside.locomotion.zmp.mpc import IntrinsicallyStableMpc
 from stepaside.planning import (
     CenterState,
@@ -139,10 +137,7 @@ def test_infeasible_exactly_when_no_zmp_under_the_soles_holds(
     mpc, p, dcm = solver(edge=0.0), plan_of(kind, bearing), np.array([x, y])
     result = mpc.solve(p, time, dcm, ZERO)
     reference = ReferenceQp(mpc, p, time)
-    less, more = (
-        reference.holds(0.999 * dcm),
-        reference.holds(1.001 * dcm),
-    )
+    less, more = (reference.holds(0.999 * dcm), reference.holds(1.001 * dcm))
     if less == more:  # not within a thousandth of the border
         assert result.feasible == less
 

@@ -7,10 +7,7 @@ import pytest
 
 from stepaside.core.poses import Array
 from stepaside.core.rotations import rotation
-from stepaside.locomotion.zmp.state_estimator import (
-    BodyState,
-    StateEstimator,
-)
+from stepaside.locomotion.zmp.state_estimator import BodyState, StateEstimator
 from stepaside.perception.measurement import RobotState
 from stepaside.robots.leg_kinematics import BodyReference
 from stored_values import compare_stored, summed

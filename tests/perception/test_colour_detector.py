@@ -89,9 +89,7 @@ def test_a_mirrored_image_mirrors_the_detection() -> None:
 
 
 @pytest.mark.parametrize("colour", PAINT)
-def test_boxes_and_figures_without_this_trim_are_no_robot(
-    colour: str,
-) -> None:
+def test_boxes_and_figures_without_this_trim_are_no_robot(colour: str) -> None:
     other = "blue" if colour == "red" else "red"
     for tall in (30, 60, 100):
         pixels = empty()

@@ -9,12 +9,7 @@ from stepaside.arena import Box, Disc, Obstacle
 from stepaside.core.convex import signed_area
 from stepaside.core.poses import Array
 from stepaside.perception.camera_model import CameraModel, CameraPose
-from stepaside.perception.floor_map import (
-    CELL,
-    FloorMap,
-    cover,
-    wide_areas,
-)
+from stepaside.perception.floor_map import CELL, FloorMap, cover, wide_areas
 from stepaside.perception.images import DepthImage
 
 CAMERA = CameraModel.of_field_of_view(80, 60, 1.01, 0.785)

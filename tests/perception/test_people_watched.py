@@ -14,9 +14,7 @@ from stepaside.perception.colour_detector import RED, ColourDetector
 from stepaside.perception.images import Percept
 from stepaside.perception.measurement import RobotState, Sighting
 from stepaside.perception.pipeline import build_perception
-from stepaside.perception.target_selection import (
-    PeopleSelection,
-)
+from stepaside.perception.target_selection import PeopleSelection
 from stepaside.perception.track import Observation, TargetTrack, Tracker
 from synthetic_cameras import HEAD, JOINTS, NAO, UP
 from synthetic_depth import Post, Wall, draw

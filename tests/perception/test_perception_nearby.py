@@ -6,15 +6,7 @@ import pytest
 
 from stepaside.perception.depth_detector import Shadow
 from stepaside.perception.floor_map import FloorMap
-from synthetic_cameras import (
-    TICK,
-    Eyes,
-    colour,
-    depth,
-    obstacle,
-    show,
-    trim,
-)
+from synthetic_cameras import TICK, Eyes, colour, depth, obstacle, show, trim
 
 
 class NoFloor(FloorMap):

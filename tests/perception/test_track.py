@@ -5,11 +5,7 @@ from math import hypot
 import numpy as np
 import pytest
 
-from stepaside.perception.track import (
-    Observation,
-    TargetTrack,
-    Tracker,
-)
+from stepaside.perception.track import Observation, TargetTrack, Tracker
 
 FRAME = 1.0 / 15.0
 

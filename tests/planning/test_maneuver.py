@@ -56,15 +56,9 @@ def follow(plan: ManeuverPlan, bearing: float) -> ManeuverPlan:
 
 
 @settings(max_examples=25, deadline=None)
-@given(
-    BEARINGS,
-    st.sampled_from(Foot),
-    st.sampled_from(Direction),
-)
+@given(BEARINGS, st.sampled_from(Foot), st.sampled_from(Direction))
 def test_plan_solves_the_pendulum_on_the_grid(
-    bearing: float,
-    foot: Foot,
-    direction: Direction,
+    bearing: float, foot: Foot, direction: Direction
 ) -> None:
     """Velocity and acceleration by differences inside the phases."""
     plan = start(bearing, foot, direction, ManeuverPlanner(GaitSettings()), 6)
@@ -179,11 +173,7 @@ def test_halt_ends_at_rest_with_the_feet_abreast() -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "value"),
-    [
-        ("foot_spacing", 0.05),
-        ("zmp_forward", 0.2),
-    ],
+    ("name", "value"), [("foot_spacing", 0.05), ("zmp_forward", 0.2)]
 )
 def test_impossible_gait_is_refused_by_name(name: str, value: Any) -> None:
     with pytest.raises(PlanError, match=f"{name} must .*got '?{value}"):

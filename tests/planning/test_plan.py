@@ -25,11 +25,7 @@ def walking(
     foot: Foot = Foot.LEFT, state: CenterState = STATE
 ) -> ManeuverPlan:
     return PLANNER.plan(
-        0.5,
-        Direction.FORWARD,
-        first_foot=foot,
-        state=state,
-        swing_start=START,
+        0.5, Direction.FORWARD, first_foot=foot, state=state, swing_start=START
     )
 
 

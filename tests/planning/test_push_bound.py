@@ -273,11 +273,7 @@ def test_a_halt_is_held_by_its_two_feet_and_no_third_step() -> None:
     ],
 )
 def test_bound_is_the_best_of_all_linear_programs(
-    kind: str,
-    time: float,
-    direction: float,
-    reach: FootReach,
-    lasts: float,
+    kind: str, time: float, direction: float, reach: FootReach, lasts: float
 ) -> None:
     """Sampled ZMPs, and one landing at a time."""
     plan = walking(bearing=0.3) if kind == "walk" else plan_of(kind)

@@ -7,12 +7,7 @@ import numpy as np
 import pytest
 
 from stepaside.core.poses import Array
-from stepaside.planning import (
-    Direction,
-    Foot,
-    GaitSettings,
-    ManeuverPlanner,
-)
+from stepaside.planning import Direction, Foot, GaitSettings, ManeuverPlanner
 from stepaside.planning.path import (
     path_samples,
     poses_on_path,

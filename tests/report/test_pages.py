@@ -83,8 +83,7 @@ def open_page(
         options: Of the context in which it opens.
     """
     page = browser.new_page(
-        viewport={"width": width, "height": height},
-        **options,
+        viewport={"width": width, "height": height}, **options
     )
     page.set_default_timeout(WAIT)
     page.add_init_script(LIDS)

@@ -4,9 +4,7 @@ import mujoco
 import numpy as np
 
 from stepaside.report import replay_page
-from stepaside.report.visual_geoms import (
-    visual_geoms_of,
-)
+from stepaside.report.visual_geoms import visual_geoms_of
 
 MODEL = """
 <mujoco>

@@ -95,9 +95,7 @@ def test_a_game_is_drawn_printed_and_shown_as_stored(
     "names", [["duel", "duel-mpc"], ["walk-pushed", "walk-fast"]]
 )
 def test_runs_are_compared_as_stored(
-    names: list[str],
-    figures: list[Figure],
-    tmp_path: Path,
+    names: list[str], figures: list[Figure], tmp_path: Path
 ) -> None:
     draw_runs([run_of(name) for name in names], tmp_path / "runs.png")
     found = shown_by(figures)

@@ -113,9 +113,7 @@ def test_a_folder_that_lacks_a_file_is_no_run(
         load_run(folder)
 
 
-def test_the_stage_puts_the_bodies_where_they_were(
-    result: Run,
-) -> None:
+def test_the_stage_puts_the_bodies_where_they_were(result: Run) -> None:
     """At every sample: torsos, CoMs and the cameras of the bodies."""
     tracks = {}
     for name in ("pursuer", "evader"):

@@ -77,10 +77,7 @@ def test_an_old_tree_is_compiled_again(tmp_path: Path) -> None:
     ],
 )
 def test_without_mujoco_a_stored_tree_is_required(
-    kept: str | None,
-    why: str,
-    tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
+    kept: str | None, why: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     robot = synthetic_humanoid(tmp_path)
     if kept == "old":

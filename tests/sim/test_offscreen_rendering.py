@@ -54,9 +54,7 @@ specular="0 0 0"/></visual><worldbody>
 </worldbody></mujoco>"""
 
 
-def test_a_rendered_image_is_upright(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_a_rendered_image_is_upright(monkeypatch: pytest.MonkeyPatch) -> None:
     """Ahead a red box up on the left, behind a blue one in the middle."""
     renderer = choose_renderer("auto")
     if renderer not in BACKENDS:

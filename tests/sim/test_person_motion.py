@@ -8,11 +8,7 @@ import pytest
 from stepaside.arena import Disc, Room
 from stepaside.core.errors import ConfigurationError
 from stepaside.core.poses import Pose, wrap_angle
-from stepaside.sim.person_motion import (
-    PersonMotion,
-    Place,
-    read_path,
-)
+from stepaside.sim.person_motion import PersonMotion, Place, read_path
 from stepaside.sim.person_settings import PersonSettings
 from stored_values import rows_of
 
@@ -116,8 +112,7 @@ def test_a_recorded_walk_is_where_and_heads_as_recorded(
 
 
 @pytest.mark.parametrize(
-    ("lines", "message"),
-    rows_of("test_invalid_rows_are_refused"),
+    ("lines", "message"), rows_of("test_invalid_rows_are_refused")
 )
 def test_invalid_rows_are_refused(
     tmp_path: Path, lines: str, message: str
@@ -183,9 +178,7 @@ def test_a_turned_person_walks_in_the_new_direction(
 
 
 @pytest.mark.parametrize("path", ["straight", "steer"])
-def test_a_backward_walk_follows_the_same_path_facing_away(
-    path: str,
-) -> None:
+def test_a_backward_walk_follows_the_same_path_facing_away(path: str) -> None:
     ahead = walked(PersonSettings(path, 0.5, miss=0.3, turn_after=1.0))
     back = walked(
         PersonSettings(path, 0.5, miss=0.3, turn_after=1.0, backward=True)

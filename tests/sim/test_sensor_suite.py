@@ -11,11 +11,7 @@ import numpy as np
 import pytest
 
 from stepaside.perception.camera_model import CameraModel
-from stepaside.perception.images import (
-    ColourImage,
-    DepthImage,
-    Percept,
-)
+from stepaside.perception.images import ColourImage, DepthImage, Percept
 from stepaside.robots.description import load_robot
 from stepaside.sim.camera_settings import (
     CameraSettings,
@@ -92,13 +88,7 @@ def eyes_of(
     physics = SimpleNamespace(tick=TICK)
     world: Any = SimpleNamespace(model=model, data=data, physics=physics)
     return SensorSuite(
-        world,
-        "me",
-        NAO,
-        settings,
-        renderer,
-        seed,
-        with_depth=depth,
+        world, "me", NAO, settings, renderer, seed, with_depth=depth
     )
 
 

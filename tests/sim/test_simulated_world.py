@@ -6,10 +6,7 @@ import pytest
 
 from stepaside.robots.description import load_robot
 from stepaside.sim.physics_settings import PhysicsSettings
-from stepaside.sim.world import (
-    World,
-    build_model,
-)
+from stepaside.sim.world import World, build_model
 
 NAO = load_robot("nao")
 TWO = dict.fromkeys(("pursuer", "evader"), NAO)

@@ -132,8 +132,7 @@ AHEAD, BEHIND = Sector(0.0, pi / 2), Sector(pi, pi / 2)
 
 
 @pytest.mark.parametrize(
-    ("views", "side"),
-    [(ALL_AROUND, -1), ((AHEAD,), 1), ((AHEAD, BEHIND), -1)],
+    ("views", "side"), [(ALL_AROUND, -1), ((AHEAD,), 1), ((AHEAD, BEHIND), -1)]
 )
 def test_a_dash_keeps_the_person_in_view(
     views: tuple[Sector, ...], side: int

@@ -77,9 +77,7 @@ def test_it_knows_the_map_in_its_own_odometry() -> None:
     frame = Pose(2.0, -1.0, 1.3)
     moved = Disc(*frame.compose(Pose(disc.x, disc.y, 0.0))[:2], disc.radius)
     there = replace(
-        here,
-        pose_in_map=frame,
-        obstacles_in_map=ObstacleSet((moved,)),
+        here, pose_in_map=frame, obstacles_in_map=ObstacleSet((moved,))
     )
     one, _ = mind.decide(
         replace(here, obstacles_in_map=ObstacleSet((disc,))), mind.begin()

@@ -8,10 +8,7 @@ import pytest
 
 from stepaside.core.poses import Pose
 from stepaside.strategies import Knowledge, Limits
-from stepaside.strategies.opponent_track import (
-    OpponentTrack,
-    track_of_steps,
-)
+from stepaside.strategies.opponent_track import OpponentTrack, track_of_steps
 
 STEP = 0.5
 OWN = Pose(1.0, -2.0, 0.3)

@@ -9,12 +9,7 @@ import pytest
 
 from floor_duels import play_steps
 from stepaside.core.poses import Pose, wrap_angle
-from stepaside.strategies import (
-    Evasion,
-    Knowledge,
-    Limits,
-    Pursuit,
-)
+from stepaside.strategies import Evasion, Knowledge, Limits, Pursuit
 
 NAO = Limits(0.1, 0.2, 0.04, 0.4)
 START = (Pose(0.0, 0.0, 0.4), Pose(1.2, 0.3, 2.0))

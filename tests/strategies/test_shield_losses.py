@@ -97,9 +97,7 @@ def walk_required(person: ShieldSettings, period: float) -> float:
         {"contact": 0.5},
     ],
 )
-def test_required_distance_of_the_papers_walk(
-    changes: dict[str, Any],
-) -> None:
+def test_required_distance_of_the_papers_walk(changes: dict[str, Any]) -> None:
     person = replace(PERSON, **changes)
     shield = ShieldedStrategy(StandStill(), person, BODY)
     model = shield.model_for(Knowledge(0.0, 0.0, 3.0, WALK))

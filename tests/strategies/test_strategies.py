@@ -144,11 +144,7 @@ def test_mirrored_knowledge_gives_the_mirrored_intent(
 
 
 @pytest.mark.parametrize(
-    "bad",
-    [
-        {"release_distance": 0.5},
-        {"release_distance": 0.8},
-    ],
+    "bad", [{"release_distance": 0.5}, {"release_distance": 0.8}]
 )
 def test_impossible_evasion_is_refused(bad: dict[str, float]) -> None:
     with pytest.raises(ConfigurationError, match=next(iter(bad))):

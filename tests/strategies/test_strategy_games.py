@@ -11,17 +11,9 @@ from sampled_unicycles import play_sampled
 from stepaside.core.poses import wrap_angle
 from stepaside.games import Outcome, duel, run_game
 from stepaside.games.game_settings import StartSettings
-from stepaside.strategies import (
-    Evasion,
-    Pursuit,
-    StandStill,
-    Strategy,
-)
+from stepaside.strategies import Evasion, Pursuit, StandStill, Strategy
 from stepaside.studies.tournament import StrategyTrack
-from stepaside.theory.unicycle import (
-    RelativeStart,
-    Unicycles,
-)
+from stepaside.theory.unicycle import RelativeStart, Unicycles
 
 FIG_2 = Unicycles(1.0, 1.0, 0.5, 0.5)
 START = RelativeStart(2.5, 0.3, -0.2)

@@ -7,11 +7,7 @@ import pytest
 from stepaside.planning import Direction
 from stepaside.strategies import STAND, Intent, Limits
 from stepaside.strategies.strategy import unicycle_intent
-from stepaside.strategies.velocity_set import (
-    STILL,
-    BodyVelocity,
-    VelocitySet,
-)
+from stepaside.strategies.velocity_set import STILL, BodyVelocity, VelocitySet
 
 LEGS = VelocitySet((-0.5, 1.0), (-0.3, 0.4), (-2.0, 1.0))
 LIMITS = Limits(0.1, 0.2, 0.04, 0.4)

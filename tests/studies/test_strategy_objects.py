@@ -23,9 +23,7 @@ from stepaside.cli.main import main
 from stepaside.core.errors import ConfigurationError
 from stepaside.games.run import Run
 from stepaside.planning import Direction
-from stepaside.strategies import (
-    EvasionMemory,
-)
+from stepaside.strategies import EvasionMemory
 
 SHORT = duel(duration=1.2, start=StartSettings(distance=0.7))
 OWN = """

@@ -135,9 +135,7 @@ def test_settled_time_is_the_last_arrival_at_the_circle() -> None:
         *(pytest.param(g, marks=pytest.mark.slow) for g in GAMES[2:]),
     ],
 )
-def test_the_default_step_has_the_outcomes_of_a_tenth(
-    game: Unicycles,
-) -> None:
+def test_the_default_step_has_the_outcomes_of_a_tenth(game: Unicycles) -> None:
     starts = random_starts(300, seed=3)
     step = accurate_step(game)
     fine = play_games(game, starts, 40.0, step=0.1 * step)

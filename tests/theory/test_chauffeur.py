@@ -8,11 +8,7 @@ import pytest
 
 from played_values import by_table, play, towards
 from stepaside.core.errors import PlanError
-from stepaside.theory.value import (
-    ChauffeurGame,
-    ValueTable,
-    solve_chauffeur,
-)
+from stepaside.theory.value import ChauffeurGame, ValueTable, solve_chauffeur
 from stepaside.theory.value.chauffeur import guaranteed_distance
 
 RATIO = 0.643

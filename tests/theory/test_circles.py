@@ -15,10 +15,7 @@ from stepaside.theory.unicycle.circles import (
     find_circle,
 )
 from stepaside.theory.unicycle.simulation import play_games
-from stepaside.theory.unicycle.start_maps import (
-    find_basins,
-    random_starts,
-)
+from stepaside.theory.unicycle.start_maps import find_basins, random_starts
 
 SATURATED = "saturated"
 FAST = Unicycles(2.0, 1.0, 1.0, 4.0)

@@ -53,9 +53,7 @@ def test_side_changes_beyond_the_hysteresis_at_both_ends(
 
 
 @given(ANGLES)
-def test_without_hysteresis_the_side_is_the_one_behind(
-    bearing: float,
-) -> None:
+def test_without_hysteresis_the_side_is_the_one_behind(bearing: float) -> None:
     if 1e-9 < abs(bearing) < pi - 1e-9:
         for side in (-1, 0, 1):
             kept = laws.update_side(side, bearing, 0.0)

@@ -206,10 +206,7 @@ def test_a_start_pays_for_every_place_within_its_loss() -> None:
     starts = np.zeros((0, *grid.whole().shape))
     walking = solve_game(motion, motion, grid, outside=lambda _: 0.0)
     walking = replace(
-        walking,
-        values=values,
-        after=values,
-        grid=grid._replace(outside=1.0),
+        walking, values=values, after=values, grid=grid._replace(outside=1.0)
     )
     table = ShieldTable(game, walking, values, starts, 1.0, 0.0)
     for x, least in ((6.4, 1.0), (6.5, 0.0), (6.9, 0.0)):

@@ -46,11 +46,7 @@ def test_mirrored_start_mirrors_the_game(game: Unicycles) -> None:
 
 
 def plain_world_game(
-    game: Unicycles,
-    pursuer: Pose,
-    evader: Pose,
-    duration: float,
-    count: int,
+    game: Unicycles, pursuer: Pose, evader: Pose, duration: float, count: int
 ) -> tuple[Pose, Pose]:
     """Integrate eqs. (1)-(6) on the floor by Euler's rule, as they stand."""
     h = duration / count
@@ -149,10 +145,7 @@ def test_bad_values_are_refused(value: float) -> None:
 
 def test_side_that_the_rule_forbids_changes_immediately() -> None:
     """Then the game is the one that asks for no side."""
-    game, start = (
-        Unicycles(1.0, 1.0, 0.5, 0.5),
-        RelativeStart(3.0, 0.2, 0.8),
-    )
+    game, start = (Unicycles(1.0, 1.0, 0.5, 0.5), RelativeStart(3.0, 0.2, 0.8))
     asked = simulate(game, start, 10.0, side=1)
     free = simulate(game, start, 10.0)
     assert asked.switches[0] == 0.0

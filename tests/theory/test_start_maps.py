@@ -8,10 +8,7 @@ import pytest
 
 from stepaside.theory.unicycle import Unicycles
 from stepaside.theory.unicycle.simulation import play_games, simulate
-from stepaside.theory.unicycle.start_maps import (
-    find_worst_start,
-    map_starts,
-)
+from stepaside.theory.unicycle.start_maps import find_worst_start, map_starts
 
 
 def facing(*shape: int) -> Any:
@@ -33,9 +30,7 @@ def test_map_is_symmetric_under_mirroring() -> None:
 @pytest.mark.parametrize(
     "game", [NAO, Unicycles(0.1, 0.1, 0.2, 0.2, np.pi / 2, "saturated")]
 )
-def test_independent_optimiser_finds_nothing_closer(
-    game: Unicycles,
-) -> None:
+def test_independent_optimiser_finds_nothing_closer(game: Unicycles) -> None:
     from scipy.optimize import differential_evolution
 
     found = map_starts(game, facing(4, 11, 11), 40.0, step=0.05)

@@ -173,9 +173,7 @@ def test_a_converted_network_contains_its_contract(tmp_path: Path) -> None:
             read(path).check()
 
 
-def test_booster_gym_moves_the_last_joints_of_its_file(
-    tmp_path: Path,
-) -> None:
+def test_booster_gym_moves_the_last_joints_of_its_file(tmp_path: Path) -> None:
     pytest.importorskip("yaml")
     path = network_of(tmp_path / "legs.onnx", {}, 20)
     (tmp_path / "legs.yaml").write_text(
@@ -233,8 +231,7 @@ def test_a_joint_that_the_robot_lacks_is_named(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("entries", "message"),
-    rows_of("test_a_bad_entry_is_named"),
+    ("entries", "message"), rows_of("test_a_bad_entry_is_named")
 )
 def test_a_bad_entry_is_named(
     entries: dict[str, Any], message: str, tmp_path: Path

@@ -11,11 +11,7 @@ from stepaside.arena.shapes import Disc
 from stepaside.core.errors import PolicyError
 from stepaside.core.poses import Pose
 from stepaside.strategies.knowledge import Knowledge, Limits
-from stepaside.strategies.learned import (
-    SENSED_TERMS,
-    observe,
-    width_of,
-)
+from stepaside.strategies.learned import SENSED_TERMS, observe, width_of
 
 TERMS = tuple(SENSED_TERMS)
 STEPS = Limits(0.1, 0.2, 0.04, 0.4)
