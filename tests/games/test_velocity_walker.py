@@ -14,6 +14,7 @@ from stepaside.games.player_settings import PLAYERS
 from stepaside.games.recorded_game import RecordedGame
 from stepaside.games.velocity_walker import VelocityWalker
 from stepaside.locomotion.control_settings import STABILISED, LegsSettings
+from stepaside.planning import GaitSettings
 from stepaside.sim.body_settings import BODIES
 from stepaside.strategies.velocity_set import BodyVelocity
 
@@ -83,7 +84,8 @@ def test_a_ready_robot_moves_before_a_watchdog_takes_it_for_frozen() -> None:
         ready_at = ready_at if robot.ready else world.time
         robot.tick()
         world.step()
-    assert 0.9 < ready_at < world.time < ready_at + STUCK
+    longest = GaitSettings().start_support + STUCK
+    assert 0.9 < ready_at < world.time < ready_at + longest
 
 
 def test_odometry_is_where_the_robot_is(
