@@ -132,7 +132,7 @@ class PolicyNetwork:
             state[:] = before
         self._session.run_with_iobinding(binding)
         # most often it is
-        if not action.dot(action) < 0.5 * LARGEST_ACTION**2:
+        if not float(action.dot(action)) < 0.5 * LARGEST_ACTION**2:
             self._check(action)
         return action, tuple([state.copy() for state in after])
 
