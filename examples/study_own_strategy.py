@@ -3,7 +3,7 @@
 # ///
 """Study of an own evader: 20 duels over a parameter, a frame and a figure."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import stepaside as sa
@@ -18,7 +18,8 @@ class BackOff(sa.Evasion):
     def decide(self, knowledge: sa.Knowledge, memory: Any) -> Any:
         """Return the intent and the memory of the paper's evader."""
         angle = 0.0 if knowledge.distance < self.near else self.angle
-        return sa.Evasion(angle).decide(knowledge, memory)
+        evader = replace(self, angle=angle)
+        return sa.Evasion.decide(evader, knowledge, memory)
 
 
 if __name__ == "__main__":

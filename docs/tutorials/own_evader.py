@@ -12,7 +12,7 @@
 # across while it is far.
 
 # %%
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import pi
 
 from stepaside import Evasion
@@ -24,8 +24,8 @@ class BackAndAside(Evasion):
 
     def decide(self, knowledge, memory):
         share = min(max(2.0 * knowledge.distance - 1.0, 0.0), 1.0)
-        evader = Evasion(angle=0.5 * pi * share)
-        return evader.decide(knowledge, memory)
+        evader = replace(self, angle=0.5 * pi * share)
+        return Evasion.decide(evader, knowledge, memory)
 
 
 # %% [markdown]

@@ -37,6 +37,25 @@ def test_a_foot_ahead_of_the_other_does_not_mirror_it() -> None:
     assert symmetry(replace(nao, standing=nao.standing | angles)) == "warn"
 
 
+def test_standing_loads_an_arm_by_its_weight_at_its_lever() -> None:
+    nao = load_robot("nao")
+    ahead = {"LShoulderPitch": 0.0, "RShoulderPitch": 0.0}
+    stretched = replace(nao, standing=nao.standing | ahead)
+    model = nao.compile()
+    data = mujoco.MjData(model)
+    for name, angle in stretched.standing.items():
+        data.joint(name).qpos[:] = angle
+    mujoco.mj_kinematics(model, data)
+    mujoco.mj_comPos(model, data)
+    joint = model.joint("LShoulderPitch")
+    lever = data.subtree_com[joint.bodyid[0]] - data.xanchor[joint.id]
+    torque = 9.81 * model.body_subtreemass[joint.bodyid[0]] * lever[0]
+    (motor,) = (model.actuator_trnid[:, 0] == joint.id).nonzero()[0]
+    share = 100.0 * torque / model.actuator_forcerange[motor, 1]
+    found = checked(stretched, "torque of standing")
+    assert found == ("pass", f"{share:.0f} % of the limit of LShoulderPitch")
+
+
 LIMITS = 'lower="-0.9" upper="0.9"'
 
 

@@ -93,7 +93,7 @@ class Watchdog:
         if fault := pose_fault(report, last):
             return f"{source}: {fault}"
         if self.paced and (off := self._meter.fault(report.time, now)):
-            return f"{source}: {off}"
+            return f"{source}: {off}; a simulated clock needs sim_time"
         newest = self._newest
         if newest is None or report.pose != newest.pose:
             self._stuck = 0.0

@@ -333,6 +333,35 @@ def _reach(description: RobotDescription) -> Finding:
     return f"CoM at {gait.com_height:.3f} of {highest:.3f} m", far
 
 
+def _standing(description: RobotDescription) -> Finding:
+    """Compare what every servo holds while standing with its limit.
+
+    Each foot carries half of the weight, in line with the CoM.
+    """
+    model = description.compile()
+    data, limits = mujoco.MjData(model), _torque_limits(model)
+    for joint, angle in description.standing.items():
+        data.joint(joint).qpos[:] = angle
+    mujoco.mj_forward(model, data)
+    loads, jacobian = data.qfrc_bias.copy(), np.zeros((3, model.nv))
+    body = model.body(description.torso).id
+    weight = model.body_subtreemass[body] * -model.opt.gravity[2]
+    for foot in (description.left_foot, description.right_foot):
+        place = data.site(foot).xpos.copy()
+        place[0] = data.subtree_com[body, 0]
+        below = model.site_bodyid[model.site(foot).id]
+        mujoco.mj_jac(model, data, jacobian, None, place, below)
+        loads -= 0.5 * weight * jacobian[2]
+    shares = {
+        name: abs(float(loads[model.joint(name).dofadr[0]])) / high
+        for name, high in limits.items()
+    }
+    most = max(shares, key=lambda name: shares[name])
+    return f"{100.0 * shares[most]:.0f} % of the limit of {most}", (
+        shares[most] < 1.0
+    )
+
+
 def _strength(description: RobotDescription) -> Finding:
     gait = settings_from_description(description).gait
     torques = _torque_limits(description.compile())
@@ -361,6 +390,11 @@ CHECKS: dict[str, tuple[Check, str, str]] = {
         *(_reach, "warn"),
         "change gait.com_height, foot_spacing or the standing angles: near "
         "the greatest height the knees get straight",
+    ),
+    "torque of standing": (
+        *(_standing, "fail"),
+        "its servo is too weak to stand, whatever the gait: see the torque "
+        "limit in [overlay.servos] and the standing angles",
     ),
     "torque of a step": (
         *(_strength, "warn"),
