@@ -138,9 +138,9 @@ def test_reports_that_fall_behind_the_clock_stop_the_robot() -> None:
         late.check(report(STAMP + 1.2 + 0.05 * i), 1.4 + 0.1 * i)
         for i in range(1, 20)
     ]
-    assert said[3] == "" and said[-1].endswith("s behind the clock")
+    assert said[3] == "" and "s behind the clock" in said[-1]
     stays = late.check(report(STAMP + 2.2), 3.35)
-    assert stays.endswith("s behind the clock")
+    assert "s behind the clock" in stays
 
 
 @pytest.mark.parametrize(("begins", "late"), [(0.8, 30), (1.27, 40)])
