@@ -45,6 +45,14 @@ def test_simulation_reaches_the_closed_form() -> None:
         assert played[name] == pytest.approx(theory[name], abs=1e-3), name
 
 
+def test_a_game_ends_at_the_capture_distance() -> None:
+    words = "--distance 1 --set evader_speed=0.01 --set capture="
+    for capture in (0.2, 0.4):
+        found = loads(unicycles, f"{words}{capture}")
+        assert found["captured"]
+        assert found["closest_distance_m"] == pytest.approx(capture, abs=1e-6)
+
+
 def test_map_names_the_worst_start() -> None:
     found = loads(map_command, MAP)
     assert found["games"] == 50

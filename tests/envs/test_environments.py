@@ -103,6 +103,10 @@ def test_vector_games_are_those_of_single_environments(name: str) -> None:
     games = VectorDuel(3, role=role, opponent=opponent, **settings)
     singles = [DuelEnv(role, opponent=opponent, **settings) for _ in range(3)]
     found, _ = games.reset(seed=5)
+    space = singles[0].action_space
+    if isinstance(space, gymnasium.spaces.Box):  # any heading
+        np.testing.assert_allclose(space.high, [np.pi, 1.0], rtol=1e-6)
+        np.testing.assert_allclose(space.low, [-np.pi, 0.0], rtol=1e-6)
     for i, single in enumerate(singles):
         first, _ = single.reset(seed=5 + i)
         np.testing.assert_allclose(found[i], first, atol=1e-6)

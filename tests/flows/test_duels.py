@@ -236,6 +236,7 @@ def test_a_run_opens_from_another_folder(
     stepaside("show", moved, kept_duel, "-o", "both.svg")
     drawn = Path("both.svg").read_text()
     assert drawn.lstrip().startswith("<?xml") and "renamed" in drawn
+    assert "dc:date" not in drawn  # the same run gives the same file
     summed = (moved / "summary.json").read_text()
     (moved / "summary.json").write_text(
         summed.replace('"min_distance_m": ', '"min_distance_m": 1')

@@ -69,6 +69,8 @@ def test_a_setting_is_changed_of_the_game_of_all_or_of_one_player() -> None:
     assert made.pursuer.gait == GaitSettings()  # a person has no use of it
     assert made.pursuer.person.speed == 1.0 and made.robots == ("evader",)
     assert made.changed(evader={"strategy": ""}).evader.strategy == ""
+    own = duel(gait={"speed": 0.03}, evader={"gait": {"speed": 0.02}})
+    assert own.evader.gait.speed == 0.02 and own.pursuer.gait.speed == 0.03
     for changes, message in (
         ({"weather": 1}, "unknown entry weather"),
         ({"evader": {"mood": 1}}, "evader: .*mood"),

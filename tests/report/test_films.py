@@ -166,3 +166,14 @@ def test_a_film_that_fails_leaves_nothing_behind(
             lambda *_: None,
         )
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_film_shows_its_duration_from_where_it_begins() -> None:
+    for begin, last in (0.0, 60.0), (20.0, 60.0), (20.0, 23.0), (20.0, 19.0):
+        film = FilmSettings(begin=begin, duration=4.0, rate=10.0, speed=2.0)
+        times = film.frame_times(last)
+        assert np.allclose(times[:1], begin) and np.allclose(
+            np.diff(times), 0.2
+        )
+        shown = max(0.0, min(4.0, last - begin))
+        assert len(times) == (round(shown / 0.2) + 1 if last >= begin else 0)

@@ -87,6 +87,11 @@ def test_whatever_changes_a_result_changes_its_key(tmp_path: Path) -> None:
         unicycles(variants={"speed": {"slow": {"evader_speed": 0.05}}}),
     ):
         assert keys(other).isdisjoint(keys(unicycles()))
+    slow, slower = (
+        keys(unicycles(variants={"speed": {"slow": {"evader_speed": v}}}))
+        for v in (0.05, 0.04)
+    )
+    assert slow.isdisjoint(slower)
 
 
 def test_a_function_of_ones_own_is_a_game() -> None:
