@@ -43,9 +43,12 @@ def raised(x):
 
 
 def run(folder: Path, cache: Path) -> tuple[str, str]:
-    """Run the caller in a process of its own; return what it says."""
+    """Run the caller in a process of its own; return what it says.
+
+    Python's own cache would miss a change of one length within a second.
+    """
     done = subprocess.run(
-        [sys.executable, folder / "caller.py"],
+        [sys.executable, "-B", folder / "caller.py"],
         env=os.environ | {"NUMBA_CACHE_DIR": str(cache)},
         capture_output=True,
         text=True,
