@@ -209,6 +209,8 @@ def check(
             echo("")
             departure = report.to_json()["departure_m"]
             print_table(result_rows({"departure_m": departure}))
+        elif report.walks:
+            echo("\nno departures stored: a walk at random ended early")
         hints = [f"{f.name}: {f.hint}" for f in found if f.hint]
         passed = "all checks passed: the robot can play"
         end = passed if report.passes else "the robot cannot play yet"
