@@ -140,7 +140,7 @@ class ParallelGames(ParallelEnv[str, Row, Any]):
     def info(self) -> dict[str, Any]:
         """Return closest approaches [m] by evader, time [s] and outcome."""
         return {
-            "closest_m": self.closest(),
+            "closest_m": dict(self.closest),
             "time_s": self.game.world.time,
             "outcome": self.outcome,
         }
@@ -225,8 +225,7 @@ class ParallelGames(ParallelEnv[str, Row, Any]):
                 )
             heading, speed = self._choice.intents([actions[name]])[0].tolist()
             self._held[name].intent = Intent(heading, speed)
-        before = self.closest()
-        begun, over = game.world.time, False
+        before, begun, over = self.closest, game.world.time, False
         while not (over or game.ended):
             game.tick(begun + self.period)
             due, world = self._due(), game.world
@@ -235,11 +234,11 @@ class ParallelGames(ParallelEnv[str, Row, Any]):
                 late and not any(map(world.is_moving, names))
             )
         self.known |= due
-        gains = {n: now - before[n] for n, now in self.closest().items()}
-        taken = -sum(gains.values()) / len(gains)  # by each pursuer
         if game.ended:
             self.agents = []
         observations, infos = self._look()
+        gains = {n: now - before[n] for n, now in self.closest.items()}
+        taken = -sum(gains.values()) / len(gains)  # by each pursuer
         return (
             observations,
             {n: gains.get(n, taken) / self._units[n] for n in names},
@@ -249,7 +248,7 @@ class ParallelGames(ParallelEnv[str, Row, Any]):
         )
 
     def _look(self) -> tuple[dict[str, Row], dict[str, dict[str, Any]]]:
-        names = self.possible_agents
+        names, self.closest = self.possible_agents, self._approaches()
         observations = {name: self.observe(name) for name in names}
         return observations, {name: self.info() for name in names}
 
@@ -264,7 +263,7 @@ class ParallelGames(ParallelEnv[str, Row, Any]):
         """Outcome in one word; empty while it goes on, or if truncated."""
         return "" if self._is_late else str(self.game.outcome or "")
 
-    def closest(self) -> dict[str, float]:
+    def _approaches(self) -> dict[str, float]:
         """Return the closest approach of each evader so far, in [m], by name.
 
         It is 0 after a fall, or contact with anything but an opponent.
@@ -273,6 +272,8 @@ class ParallelGames(ParallelEnv[str, Row, Any]):
         found: dict[str, float] = {}
         for (name, _), apart in game.closest.items():
             found[name] = min(found.get(name, inf), apart)
+        if game.ended is None:
+            return found
         touched = set(game.touched) & ids.keys()
         for name in found:
             met = any(ids[name].opposes(ids[other]) for other in touched)
@@ -393,7 +394,7 @@ class ParallelDuel(ParallelGames):
         bearing = atan2(y - v, x - u) - theta  # of this player
         full = (
             *(cos(bearing), sin(bearing)),
-            min(self.closest()["evader"] / unit, FARTHEST),
+            min(self.closest["evader"] / unit, FARTHEST),
             max(0.0, 1.0 - world.time / self.game.rules.duration),
         )
         return np.concatenate([values, np.array(full, np.float32)])
@@ -401,7 +402,7 @@ class ParallelDuel(ParallelGames):
     def info(self) -> dict[str, Any]:
         """Return closest approach, distance [m], time [s] and outcome."""
         return super().info() | {
-            "closest_m": self.closest()["evader"],
+            "closest_m": self.closest["evader"],
             "distance_m": self.game.world.apart("evader", "pursuer"),
         }
 
