@@ -26,6 +26,7 @@ from ..games.game_settings import GameSettings
 from ..games.player_settings import PLAYERS
 from ..games.recorded_game import RecordedGame
 from ..games.settings_reader import load_game
+from ..locomotion.maneuver_walk import RETRY_PERIOD
 from ..strategies.knowledge import STAND, Intent, Knowledge, OtherPlayer
 from ..strategies.learned import (
     FARTHEST,
@@ -47,7 +48,6 @@ from .environment_settings import (
 Row = NDArray[np.float32]
 REACH = 2.0  # least half width of an image, in [m]
 BODY = 0.4  # length of a player in an image, in [m]
-RETRY = 0.2  # of a player that is kept from starting, in [s]
 # Values that describe one other player: 1 if there is one, cosine and sine of
 # its bearing, distance [v/k], its velocity ahead and to the left [v], 1 if it
 # is an opponent, 1 if it is a teammate.
@@ -197,7 +197,7 @@ class ParallelGames(ParallelEnv[str, Row, Any]):
         It does for one that walks, or has been kept from starting.
         """
         passed = known.time - self.known[name].time
-        kept = passed > RETRY - 1e-9 and self._held[name].intent.walks
+        kept = passed > RETRY_PERIOD - 1e-9 and self._held[name].intent.walks
         return known.moving or kept
 
     def step(
